@@ -1,0 +1,58 @@
+# mimicry_module(NAME [SOURCES files...] [DEPENDS modules...] [LIBRARIES targets...] [TOOL])
+#
+# One library target per module, `mimicry_NAME` (alias mimicry::NAME). Public headers stand under
+# include/mimicry/NAME. A target sees the headers of its own module and of the modules that it
+# depends on, through a folder of links made here, and no others: this is what keeps the one-way
+# order of docs/architecture.md. TOOL modules need more than Eigen and stay out of the runtime.
+function(mimicry_module name)
+  cmake_parse_arguments(ARG "TOOL" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  set(target mimicry_${name})
+  set(links "${PROJECT_BINARY_DIR}/include/${name}")
+  file(MAKE_DIRECTORY "${links}/mimicry")
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/include/mimicry/${name}" "${links}/mimicry/${name}" SYMBOLIC)
+
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_compile_options(${target} PRIVATE ${MIMICRY_WARNINGS})
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(mimicry::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope}
+    "$<BUILD_INTERFACE:${links}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  target_link_libraries(${target} ${scope} mimicry_flags)
+  foreach(dependency IN LISTS ARG_DEPENDS)
+    target_link_libraries(${target} ${scope} mimicry_${dependency})
+  endforeach()
+  target_link_libraries(${target} ${scope} ${ARG_LIBRARIES})
+  if(NOT ARG_TOOL)
+    set_property(GLOBAL APPEND PROPERTY MIMICRY_RUNTIME_MODULES ${target})
+    set_property(GLOBAL APPEND PROPERTY MIMICRY_INSTALLED ${target})
+    set_property(GLOBAL APPEND PROPERTY MIMICRY_INSTALLED_HEADERS ${name})
+  endif()
+endfunction()
+
+set(MIMICRY_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-qual)
+if(MIMICRY_WERROR)
+  list(APPEND MIMICRY_WARNINGS -Werror)
+endif()
+
+# Flags that every module and whoever links it share. Contraction into fused operations is off:
+# the same input gives the same bits on every machine and in WebAssembly.
+add_library(mimicry_flags INTERFACE)
+target_compile_options(mimicry_flags INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+if(MIMICRY_SANITIZE)
+  target_compile_options(mimicry_flags INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=${MIMICRY_SANITIZE} -fno-omit-frame-pointer>)
+  target_link_options(mimicry_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=${MIMICRY_SANITIZE}>)
+  if(MIMICRY_SANITIZE MATCHES "undefined")
+    target_compile_options(mimicry_flags INTERFACE $<BUILD_INTERFACE:-fno-sanitize-recover=all>)
+  endif()
+endif()
+set_target_properties(mimicry_flags PROPERTIES EXPORT_NAME flags)
+set_property(GLOBAL APPEND PROPERTY MIMICRY_INSTALLED mimicry_flags)

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <mimicry/base/types.h>
+#include <mimicry/mesh/surface_point.h>
+
+namespace mimicry {
+
+using Face = std::array<Index, 3>;
+
+/// A triangle mesh as flat arrays; immutable once it is made. It says nothing of topology
+/// (`HalfEdges`) nor of quality (`validate`), so that any file's content can be held and reported.
+class TriangleMesh {
+ public:
+  TriangleMesh() = default;
+
+  /// positions: #V by 3, any unit. faces: #F by 3, 0-based, counter-clockwise seen from outside.
+  /// polygons: empty, or #F numbers that do not decrease: the source polygon of each triangle
+  /// (files may hold polygons; they are cut into fans in file order). Throws Error(invalid_input)
+  /// where a face refers to a vertex that does not exist, or `polygons` has another length than
+  /// `faces`. O(#V + #F).
+  TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
+               std::vector<Index> polygons = {});
+
+  Index vertex_count() const { return static_cast<Index>(positions_.size()); }
+  Index face_count() const { return static_cast<Index>(faces_.size()); }
+  std::span<const Vec3> positions() const { return positions_; }
+  std::span<const Face> faces() const { return faces_; }
+  const Vec3& position(Index vertex) const { return positions_[static_cast<std::size_t>(vertex)]; }
+  const Face& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
+  /// Position of corner k (0, 1, 2) of a face.
+  const Vec3& corner(Index f, int k) const {
+    return position(face(f)[static_cast<std::size_t>(k)]);
+  }
+  /// Number of the polygon of the source file that triangle f was cut from; f itself where the
+  /// source held triangles only.
+  Index polygon(Index f) const {
+    return polygons_.empty() ? f : polygons_[static_cast<std::size_t>(f)];
+  }
+
+  Vec3 position(const SurfacePoint& p) const {
+    return p.bary[0] * corner(p.face, 0) + p.bary[1] * corner(p.face, 1) +
+           p.bary[2] * corner(p.face, 2);
+  }
+  /// Twice the area times the unit normal.
+  Vec3 area_vector(Index f) const {
+    return (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
+  }
+
+  /// The same faces with other positions. Throws where the count differs.
+  TriangleMesh with_positions(std::vector<Vec3> positions) const;
+  /// Writes new positions in place; for the owner of a target that deforms.
+  void set_positions(std::span<const Vec3> positions);
+
+ private:
+  std::vector<Vec3> positions_;
+  std::vector<Face> faces_;
+  std::vector<Index> polygons_;
+};
+
+/// Smallest box with all referenced and unreferenced vertices; empty (min > max) without vertices.
+/// Vertices that are not finite are passed over.
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh);
+
+/// Length of the bounding box's diagonal, the size that relative tolerances refer to; 0 without
+/// vertices.
+double diagonal(const TriangleMesh& mesh);
+
+}  // namespace mimicry

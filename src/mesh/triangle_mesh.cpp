@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <mimicry/base/error.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry {
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
+                           std::vector<Index> polygons)
+    : positions_(std::move(positions)), faces_(std::move(faces)), polygons_(std::move(polygons)) {
+  // Half-edges are numbered 3 f + k in an Index.
+  constexpr std::size_t kMost = std::numeric_limits<Index>::max() / 3;
+  if (faces_.size() > kMost || positions_.size() > kMost)
+    throw Error(ErrorKind::unsupported, "mesh: more than " + std::to_string(kMost) +
+                                            " vertices or faces; split or simplify it");
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (const Index v : faces_[f])
+      if (v < 0 || v >= vertex_count())
+        throw Error(ErrorKind::invalid_input,
+                    "mesh: face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
+                        ", but there are " + std::to_string(positions_.size()) + " vertices");
+  if (!polygons_.empty() && polygons_.size() != faces_.size())
+    throw Error(ErrorKind::invalid_input, "mesh: " + std::to_string(polygons_.size()) +
+                                              " polygon numbers for " +
+                                              std::to_string(faces_.size()) + " faces");
+}
+
+TriangleMesh TriangleMesh::with_positions(std::vector<Vec3> positions) const {
+  TriangleMesh other = *this;
+  other.set_positions(positions);
+  return other;
+}
+
+void TriangleMesh::set_positions(std::span<const Vec3> positions) {
+  if (positions.size() != positions_.size())
+    throw Error(ErrorKind::invalid_input, "mesh: " + std::to_string(positions.size()) +
+                                              " new positions for " +
+                                              std::to_string(positions_.size()) + " vertices");
+  std::copy(positions.begin(), positions.end(), positions_.begin());
+}
+
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.positions())
+    if (p.allFinite()) box.extend(p);
+  return box;
+}
+
+double diagonal(const TriangleMesh& mesh) {
+  const Eigen::AlignedBox3d box = bounding_box(mesh);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+}  // namespace mimicry
