@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/mesh/half_edges.h>
+
+namespace mimicry::curve {
+
+/// Appends points to a curve as they are drawn, and joins each to the one before. What has been
+/// appended never changes. Refers to the mesh, which must outlive it.
+class CurveBuilder {
+ public:
+  CurveBuilder(const TriangleMesh& mesh, const HalfEdges& half_edges);
+
+  /// Forgets the curve and keeps its memory.
+  void clear();
+  /// Room for this many points, and for four crossings a point: up to there `append` does not
+  /// allocate.
+  void reserve(std::size_t points);
+
+  /// The next point appended is not joined to the last one.
+  void break_here() { broken_ = true; }
+  void append(const CurvePoint& point);
+
+  const ProjectedCurve& curve() const { return curve_; }
+
+ private:
+  Piece join(const CurvePoint& from, const CurvePoint& to);
+
+  const TriangleMesh* mesh_;
+  const HalfEdges* half_edges_;
+  ProjectedCurve curve_;
+  bool broken_ = false;
+};
+
+}  // namespace mimicry::curve
