@@ -27,12 +27,15 @@ std::array<CoordinateConvention, 4> make_conventions() {
            {"paper", same, half_turn, 1.0}}};
 }
 
-// A signed permutation moves and flips the coefficients of a rotation matrix exactly; only the way
-// there and back through the matrix rounds. The double cover's sign is made the one with w >= 0.
+// R' = world R device^T, as quaternions: with world == device the vector part is permuted and
+// flipped (once more by a mirror's determinant) and nothing rounds, so that recordings come back
+// unchanged.
 Quat change_axes(const Quat& q, const Mat3& world, const Mat3& device) {
-  Quat changed(world * q.normalized().toRotationMatrix() * device.transpose());
-  if (changed.w() < 0.0) changed.coeffs() = -changed.coeffs();
-  return changed.normalized();
+  Quat changed;
+  changed.w() = q.w();
+  changed.vec() = world.determinant() * (world * q.vec());
+  if (world != device) changed = changed * Quat(Mat3(world * device.transpose()));
+  return changed;
 }
 
 }  // namespace
@@ -58,6 +61,16 @@ Frame CoordinateConvention::frame_out(const Frame& internal) const {
     frame.*pose = {position_out((internal.*pose).position),
                    orientation_out((internal.*pose).orientation)};
   return frame;
+}
+
+Similarity CoordinateConvention::placement_in(const Similarity& other) const {
+  return {change_axes(other.rotation, world_axes, world_axes), position_in(other.translation),
+          metres_per_unit * other.scale};
+}
+
+Similarity CoordinateConvention::placement_out(const Similarity& internal) const {
+  return {change_axes(internal.rotation, world_axes.transpose(), world_axes.transpose()),
+          position_out(internal.translation), internal.scale / metres_per_unit};
 }
 
 std::span<const CoordinateConvention> conventions() {

@@ -7,7 +7,7 @@ namespace {
 
 Pose to_model(const Pose& world, const Similarity& model_to_world) {
   return {model_to_world.inverse_point(world.position),
-          model_to_world.rotation.conjugate() * world.orientation};
+          model_to_world.rotation.conjugate() * world.orientation.normalized()};
 }
 
 std::optional<std::string> pose_problem(const Pose& pose, const char* device) {

@@ -9,6 +9,7 @@
 namespace mimicry::stroke {
 namespace {
 
+// acos resolves angles near 0 to the square root of rounding only: compare with 1e-7.
 double angle_between(const Quat& a, const Quat& b) {
   return 2.0 * std::acos(std::min(1.0, std::abs(a.normalized().dot(b.normalized()))));
 }
@@ -24,9 +25,10 @@ TEST(CoordinateConvention, RoundTripsOfPosesAreTheIdentity) {
     const Frame back = c.frame_in(c.frame_out(frame));
     EXPECT_LT((back.head.position - frame.head.position).norm(), 1e-15);
     EXPECT_LT((back.controller.position - frame.controller.position).norm(), 1e-15);
-    // acos resolves angles near 0 to the square root of rounding only.
-    EXPECT_LT(angle_between(back.head.orientation, frame.head.orientation), 1e-7);
-    EXPECT_LT(angle_between(back.controller.orientation, frame.controller.orientation), 1e-7);
+    // Up to the sign of the double cover, the same bits.
+    EXPECT_EQ(back.head.orientation.toRotationMatrix(), frame.head.orientation.toRotationMatrix());
+    EXPECT_EQ(back.controller.orientation.toRotationMatrix(),
+              frame.controller.orientation.toRotationMatrix());
     EXPECT_EQ(back.time_s, frame.time_s);
   }
 }
@@ -65,6 +67,21 @@ TEST(CoordinateConvention, LeftHandedTurnsBecomeTheSameMotionSeenInOurAxes) {
   const Quat ours = find_convention("unity")->orientation_in(unity);
   EXPECT_LT(angle_between(ours, Quat(Eigen::AngleAxisd(-std::numbers::pi / 6, Vec3::UnitY()))),
             1e-7);
+}
+
+TEST(CoordinateConvention, PlacedModelStandsWhereTheOtherProgramShowsIt) {
+  // A vertex converted by the axes and then placed as the other program does, is where ours is.
+  const Similarity ours{Quat(Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized())),
+                        Vec3(0.3, 1, -2), 0.4};
+  const Vec3 vertex(0.7, -0.2, 1.1);
+  for (const CoordinateConvention& c : conventions()) {
+    SCOPED_TRACE(std::string(c.name));
+    const Similarity theirs = c.placement_out(ours);
+    const Vec3 shown = theirs.point(c.world_axes.transpose() * vertex);
+    EXPECT_LT((c.position_in(shown) - ours.point(vertex)).norm(), 1e-14);
+    const Similarity back = c.placement_in(theirs);
+    EXPECT_LT((back.point(vertex) - ours.point(vertex)).norm(), 1e-14);
+  }
 }
 
 TEST(CoordinateConvention, UnknownNameIsNull) {

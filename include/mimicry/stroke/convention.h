@@ -29,6 +29,11 @@ struct CoordinateConvention {
   Quat orientation_out(const Quat& q) const;
   Frame frame_in(const Frame& other) const;
   Frame frame_out(const Frame& internal) const;
+  /// Where a model stands. The other program has read the mesh file with the same change of axes,
+  /// so that its model's own axes change like the world's; `scale` is world units per unit of the
+  /// file.
+  Similarity placement_in(const Similarity& other) const;
+  Similarity placement_out(const Similarity& internal) const;
 };
 
 /// openxr: right-handed, y up, metres, devices point along -z (also WebXR and glTF; the internal
