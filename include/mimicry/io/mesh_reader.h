@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <mimicry/io/mesh_format.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::io {
+
+/// Limits beyond which a file is refused before its content is held in memory.
+struct MeshReadOptions {
+  std::size_t max_vertices = 100'000'000;
+  std::size_t max_faces = 200'000'000;
+};
+
+/// The mesh that a file's bytes hold. `name` stands in the error messages only.
+///
+/// Faces count triangles: a polygon of n corners is cut into the n - 2 triangles (0, k, k + 1), in
+/// file order, and TriangleMesh::polygon() tells the source polygon's number.
+/// - OBJ, PLY (text, binary of either byte order), OFF (with colours, normals or texture
+///   coordinates, which are passed over): vertices and faces in file order, unused vertices kept.
+/// - STL (text, binary): corners at the same position become one vertex, numbered in the order of
+///   first appearance. -0 and 0 are the same position.
+/// - GLB, glTF 2.0 (buffers embedded): all triangles, strips and fans of the default scene, node
+///   transforms applied, nodes depth first. glTF splits a vertex wherever its normal, texture
+///   coordinate or material changes, which would open a closed surface along such seams: vertices
+///   at the same position become one, as with STL. Triangles of a strip that repeat a vertex are
+///   left out, they only join strips.
+///
+/// The content is not judged (`nan` and `inf` are read as such, degenerate faces are kept):
+/// validation reports it. Throws Error(invalid_input) with name, line or byte offset where the
+/// file is cut short, not of its format, refers to a vertex that does not exist, or holds no
+/// triangle; Error(unsupported) where it needs what is not handled (external buffers, compressed
+/// glTF, more than the limits). Memory and time are O(size of the file), whatever its header
+/// claims, except for glTF that uses one mesh in several nodes: O(triangles).
+TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                       const MeshReadOptions& options = {});
+
+}  // namespace mimicry::io

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mimicry/io/mesh_reader.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::io {
+
+/// Collects what a reader finds: holds the limits and cuts polygons into fans.
+class MeshBuilder {
+ public:
+  MeshBuilder(std::string_view name, const MeshReadOptions& options)
+      : name_(name), options_(options) {}
+
+  std::string_view name() const { return name_; }
+  std::size_t vertex_count() const { return positions_.size(); }
+  std::size_t polygon_count() const { return polygon_count_; }
+
+  void reserve(std::size_t vertices, std::size_t faces);
+  Index add_vertex(const Vec3& position) {
+    if (positions_.size() >= options_.max_vertices) fail_limit("vertices", options_.max_vertices);
+    positions_.push_back(position);
+    return static_cast<Index>(positions_.size() - 1);
+  }
+  /// corners: three or more, not yet checked against the vertices.
+  void add_polygon(std::span<const Index> corners);
+  /// Makes one vertex of those at the same position (bit by bit, -0 taken for 0), in the order of
+  /// first appearance.
+  void merge_identical_positions();
+  /// The mesh; the builder is empty afterwards.
+  TriangleMesh finish();
+
+ private:
+  [[noreturn]] void fail_limit(const char* what, std::size_t limit) const;
+
+  std::string_view name_;
+  MeshReadOptions options_;
+  std::vector<Vec3> positions_;
+  std::vector<Face> faces_;
+  std::vector<Index> polygons_;  // empty as long as each polygon was a triangle
+  std::size_t polygon_count_ = 0;
+};
+
+// One reader per format, each in its own source file.
+void read_obj(std::string_view bytes, MeshBuilder& mesh);
+void read_ply(std::string_view bytes, MeshBuilder& mesh);
+void read_stl(std::string_view bytes, MeshBuilder& mesh);
+void read_off(std::string_view bytes, MeshBuilder& mesh);
+void read_glb(std::string_view bytes, MeshBuilder& mesh);
+void read_gltf(std::string_view bytes, MeshBuilder& mesh);
+
+}  // namespace mimicry::io

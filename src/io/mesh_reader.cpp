@@ -1,0 +1,64 @@
+#include <string>
+
+#include <mimicry/base/error.h>
+#include <mimicry/base/float_traps.h>
+#include <mimicry/io/mesh_reader.h>
+
+#include "io/mesh_builder.h"
+#include "io/text.h"
+
+namespace mimicry::io {
+
+MeshFormat mesh_format_of(std::string_view file_name) {
+  const std::size_t dot = file_name.rfind('.');
+  const std::string ending =
+      dot == std::string_view::npos ? std::string() : to_lower(file_name.substr(dot + 1));
+  if (ending == "obj") return MeshFormat::obj;
+  if (ending == "ply") return MeshFormat::ply;
+  if (ending == "stl") return MeshFormat::stl;
+  if (ending == "off") return MeshFormat::off;
+  if (ending == "glb") return MeshFormat::glb;
+  if (ending == "gltf") return MeshFormat::gltf;
+  throw Error(ErrorKind::unsupported,
+              std::string(file_name) +
+                  ": the name does not end in a mesh format's; use .obj, .ply, .stl, .off, .glb or "
+                  ".gltf");
+}
+
+TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                       const MeshReadOptions& options) {
+  // A file may hold any bits: signalling NaN, numbers that overflow.
+  const FloatTrapMask mask;
+  MeshBuilder mesh(name, options);
+  if (bytes.empty())
+    throw Error(ErrorKind::invalid_input,
+                std::string(name) + ": the file is empty; export it again");
+  switch (format) {
+    case MeshFormat::obj:
+      read_obj(bytes, mesh);
+      break;
+    case MeshFormat::ply:
+      read_ply(bytes, mesh);
+      break;
+    case MeshFormat::stl:
+      read_stl(bytes, mesh);
+      break;
+    case MeshFormat::off:
+      read_off(bytes, mesh);
+      break;
+    case MeshFormat::glb:
+      read_glb(bytes, mesh);
+      break;
+    case MeshFormat::gltf:
+      read_gltf(bytes, mesh);
+      break;
+  }
+  if (mesh.polygon_count() == 0)
+    throw Error(ErrorKind::invalid_input,
+                std::string(name) + ": holds no triangle or polygon (" +
+                    std::to_string(mesh.vertex_count()) +
+                    " vertices); give a surface mesh of the format that the name stands for");
+  return mesh.finish();
+}
+
+}  // namespace mimicry::io

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::io {
+
+// One writer per format, each in its own source file.
+std::string write_obj(const TriangleMesh& mesh);
+std::string write_off(const TriangleMesh& mesh);
+std::string write_ply(const TriangleMesh& mesh, bool text);
+std::string write_stl(const TriangleMesh& mesh, bool text);
+std::string write_glb(const TriangleMesh& mesh);
+
+/// Appends three numbers with blanks between.
+void append_triple(std::string& out, const Vec3& x);
+void append_triple(std::string& out, const Face& face, Index first_number = 0);
+
+/// In single precision; throws Error(invalid_input) where that is not finite.
+Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format);
+
+}  // namespace mimicry::io
