@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mimicry/base/similarity.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::io {
+
+/// The version of `mimicry-curves` that is written; older ones are read (docs/formats.md).
+inline constexpr int kCurvesVersion = 1;
+
+/// A curve and where it came from.
+struct CurveRecord {
+  std::string stroke;                                  ///< the stroke's id
+  std::string technique;                               ///< the technique's name
+  std::map<std::string, std::vector<double>> options;  ///< the technique's, by name
+  Similarity model_to_world;
+  curve::ProjectedCurve curve;
+};
+
+/// All curves that were drawn on one target. Positions are in model units.
+struct CurveSet {
+  std::string target;  ///< name of the mesh
+  std::vector<CurveRecord> curves;
+};
+
+/// `mimicry-curves`: every point (face, barycentrics, position, normal, frame, time, pen distance)
+/// and every piece with its edge crossings. Reads back to the same bits.
+std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh);
+
+/// Reads what `write_curves_json` wrote, for the same mesh. Throws Error naming the file and the
+/// curve: malformed text, unknown format or version, face or half-edge beyond the mesh, vertex and
+/// face counts other than the mesh's.
+CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh);
+
+/// One `o` a curve, named stroke and technique, with an `l` polyline for each part between gaps;
+/// all crossings are vertices of it.
+std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh);
+
+/// One row a point, crossings included (columns in docs/formats.md), part and row in drawing order.
+std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh);
+
+/// Ascii PLY with `vertex` (x, y, z, red, green, blue, curve) and `edge` (vertex1, vertex2)
+/// elements. colors: one per curve, 0 to 255.
+std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors);
+
+}  // namespace mimicry::io

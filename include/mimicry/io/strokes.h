@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
+
+namespace mimicry::io {
+
+/// The version of `mimicry-strokes` that is written; older ones are read (docs/formats.md).
+inline constexpr int kStrokesVersion = 1;
+
+/// Reads a `mimicry-strokes` file and hands over its strokes one by one, converted to the internal
+/// convention and checked; only one stroke is held at a time. `name` stands for the file in
+/// messages. Throws Error naming file, stroke and frame: JSON that is cut off or malformed (with
+/// the byte), another format, a version that is unknown (unsupported), a field that is missing or
+/// of the wrong kind, a frame that cannot be used (`stroke::frame_problem`). Strokes before the
+/// fault have been handed over by then.
+void read_strokes(std::string_view bytes, std::string_view name,
+                  const std::function<void(stroke::Stroke&&)>& visit);
+std::vector<stroke::Stroke> read_strokes(std::string_view bytes, std::string_view name);
+
+/// Writes a `mimicry-strokes` file piece by piece into `sink`, in the convention asked for. The
+/// text is whole after `finish`. Numbers read back to the same bits.
+class StrokeWriter {
+ public:
+  using Sink = std::function<void(std::string_view)>;
+  explicit StrokeWriter(
+      Sink sink, const stroke::CoordinateConvention& convention = stroke::conventions().front());
+  /// Throws where the stroke is not usable; nothing of it is written then.
+  void write(const stroke::Stroke& stroke);
+  void finish();
+
+ private:
+  Sink sink_;
+  const stroke::CoordinateConvention* convention_;
+  bool first_ = true;
+};
+
+std::string write_strokes(
+    std::span<const stroke::Stroke> strokes,
+    const stroke::CoordinateConvention& convention = stroke::conventions().front());
+
+}  // namespace mimicry::io

@@ -1,0 +1,194 @@
+#include <array>
+#include <utility>
+
+#include <mimicry/io/curves.h>
+
+#include "io/json.h"
+
+namespace mimicry::io {
+namespace {
+
+using curve::CurvePoint;
+using curve::Piece;
+using curve::PieceKind;
+using curve::ProjectedCurve;
+
+constexpr const char* kFormat = "mimicry-curves";
+
+constexpr std::array<std::pair<PieceKind, const char*>, 3> kKinds = {
+    {{PieceKind::section, "section"}, {PieceKind::chord, "chord"}, {PieceKind::gap, "gap"}}};
+
+const char* kind_name(PieceKind kind) {
+  for (const auto& [value, name] : kKinds)
+    if (value == kind) return name;
+  return "";
+}
+
+OrderedJson point_json(const CurvePoint& p) {
+  return {{"face", p.surface.face},
+          {"bary", array_of(p.surface.bary)},
+          {"position", array_of(p.position)},
+          {"normal", array_of(p.normal)},
+          {"frame", p.frame},
+          {"time_s", p.time_s},
+          {"pen_distance", p.pen_distance}};
+}
+
+OrderedJson piece_json(const ProjectedCurve& curve, std::size_t i, const TriangleMesh& mesh) {
+  OrderedJson crossings = OrderedJson::array();
+  for (const Crossing& c : curve.piece_crossings(i)) {
+    const Face& face = mesh.face(HalfEdges::face(c.half_edge));
+    const auto corner = static_cast<std::size_t>(HalfEdges::corner(c.half_edge));
+    crossings.push_back(
+        {{"half_edge", c.half_edge}, {"edge", {face[corner], face[(corner + 1) % 3]}}, {"t", c.t}});
+  }
+  return {{"kind", kind_name(curve.pieces[i].kind)},
+          {"length", curve.pieces[i].length},
+          {"crossings", crossings}};
+}
+
+OrderedJson curve_json(const CurveRecord& record, const TriangleMesh& mesh) {
+  OrderedJson options = OrderedJson::object();
+  for (const auto& [name, values] : record.options) options[name] = values;
+  OrderedJson points = OrderedJson::array();
+  for (const CurvePoint& p : record.curve.points) points.push_back(point_json(p));
+  OrderedJson pieces = OrderedJson::array();
+  for (std::size_t i = 0; i < record.curve.pieces.size(); ++i)
+    pieces.push_back(piece_json(record.curve, i, mesh));
+  return {{"stroke", record.stroke},
+          {"technique", record.technique},
+          {"options", options},
+          {"model_to_world",
+           {{"rotation", array_of(record.model_to_world.rotation)},
+            {"translation", array_of(record.model_to_world.translation)},
+            {"scale", record.model_to_world.scale}}},
+          {"length", curve::length(record.curve)},
+          {"points", points},
+          {"pieces", pieces}};
+}
+
+Index bounded(const Json& value, Index count, const std::string& where) {
+  const Index i = index(value, where);
+  if (i >= count)
+    json_fail(where,
+              std::to_string(i) + " is beyond the mesh; it is not the mesh that was drawn on");
+  return i;
+}
+
+CurvePoint read_point(const Json& value, const TriangleMesh& mesh, const std::string& where) {
+  CurvePoint p;
+  p.surface.face = bounded(member(value, "face", where), mesh.face_count(), where + ": face");
+  p.surface.bary = vector<3>(member(value, "bary", where), where + ": bary");
+  // Written coordinates sum to 1 up to rounding; what does not is another thing than a point.
+  if (!(std::abs(p.surface.bary.sum() - 1.0) <= 1e-6) || !(p.surface.bary.minCoeff() >= -1e-6))
+    json_fail(where, "'bary' is not three numbers >= 0 that sum to 1");
+  p.position = vector<3>(member(value, "position", where), where + ": position");
+  p.normal = vector<3>(member(value, "normal", where), where + ": normal");
+  p.frame = index(member(value, "frame", where), where + ": frame");
+  p.time_s = number(member(value, "time_s", where), where + ": time_s");
+  p.pen_distance = number(member(value, "pen_distance", where), where + ": pen_distance");
+  return p;
+}
+
+Piece read_piece(const Json& value, const TriangleMesh& mesh, std::vector<Crossing>& crossings,
+                 const std::string& where) {
+  Piece piece;
+  const std::string kind = text(member(value, "kind", where), where + ": kind");
+  bool known = false;
+  for (const auto& [candidate, name] : kKinds)
+    if (kind == name) piece.kind = candidate, known = true;
+  if (!known) json_fail(where, "kind '" + kind + "' is not known");
+  piece.length = number(member(value, "length", where), where + ": length");
+  piece.first_crossing = static_cast<std::uint32_t>(crossings.size());
+  const Json& list = member(value, "crossings", where);
+  if (!list.is_array()) json_fail(where, "'crossings' is not an array");
+  for (const Json& c : list) {
+    const Index h =
+        bounded(member(c, "half_edge", where), 3 * mesh.face_count(), where + ": half_edge");
+    const double t = number(member(c, "t", where), where + ": t");
+    if (!(t >= 0.0 && t <= 1.0)) json_fail(where, "'t' is not between 0 and 1");
+    crossings.push_back({h, t});
+  }
+  piece.crossing_count = static_cast<std::uint32_t>(list.size());
+  return piece;
+}
+
+CurveRecord read_record(const Json& value, const TriangleMesh& mesh, const std::string& where) {
+  CurveRecord record;
+  record.stroke = text(member(value, "stroke", where), where + ": stroke");
+  record.technique = text(member(value, "technique", where), where + ": technique");
+  const Json& options = member(value, "options", where);
+  if (!options.is_object()) json_fail(where, "'options' is not an object");
+  for (const auto& [name, values] : options.items()) {
+    if (!values.is_array()) json_fail(where, "option '" + name + "' is not an array");
+    for (const Json& v : values) record.options[name].push_back(number(v, where + ": " + name));
+  }
+  const Json& placed = member(value, "model_to_world", where);
+  record.model_to_world = {quaternion(member(placed, "rotation", where), where + ": rotation"),
+                           vector<3>(member(placed, "translation", where), where + ": translation"),
+                           number(member(placed, "scale", where), where + ": scale")};
+  const Json& points = member(value, "points", where);
+  const Json& pieces = member(value, "pieces", where);
+  if (!points.is_array() || !pieces.is_array() ||
+      pieces.size() + 1 != std::max<std::size_t>(points.size(), 1))
+    json_fail(where, "'pieces' is not one fewer than 'points'");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    record.curve.points.push_back(
+        read_point(points[i], mesh, where + ": point " + std::to_string(i)));
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    record.curve.pieces.push_back(read_piece(pieces[i], mesh, record.curve.crossings,
+                                             where + ": piece " + std::to_string(i)));
+  return record;
+}
+
+}  // namespace
+
+std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh) {
+  const OrderedJson target = {
+      {"name", set.target}, {"vertices", mesh.vertex_count()}, {"faces", mesh.face_count()}};
+  const auto replace = OrderedJson::error_handler_t::replace;
+  std::string out = "{\"format\":\"" + std::string(kFormat) +
+                    "\",\"version\":" + std::to_string(kCurvesVersion) +
+                    ",\"target\":" + target.dump(-1, ' ', false, replace) + ",\"curves\":[";
+  const char* separator = "\n";
+  for (const CurveRecord& record : set.curves) {
+    out += separator + curve_json(record, mesh).dump(-1, ' ', false, replace);
+    separator = ",\n";
+  }
+  return out + "\n]}\n";
+}
+
+CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh) {
+  const std::string file(name);
+  Json document;
+  try {
+    document = Json::parse(bytes.begin(), bytes.end());
+  } catch (const Json::parse_error& error) {
+    json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
+  } catch (const Json::exception& error) {
+    json_fail(file, error.what());
+  }
+  if (text(member(document, "format", file), file + ": format") != kFormat)
+    json_fail(file, "is not a " + std::string(kFormat) + " file");
+  const Json& version = member(document, "version", file);
+  if (version != kCurvesVersion)
+    throw Error(ErrorKind::unsupported, file + ": version " + version.dump() + " of " + kFormat +
+                                            " is not known; update the program");
+  CurveSet set;
+  const Json& target = member(document, "target", file);
+  set.target = text(member(target, "name", file), file + ": target: name");
+  const Index vertices = index(member(target, "vertices", file), file + ": target: vertices");
+  const Index faces = index(member(target, "faces", file), file + ": target: faces");
+  if (vertices != mesh.vertex_count() || faces != mesh.face_count())
+    json_fail(file, "was drawn on a mesh of " + std::to_string(vertices) + " vertices and " +
+                        std::to_string(faces) + " faces; this one has " +
+                        std::to_string(mesh.vertex_count()) + " and " +
+                        std::to_string(mesh.face_count()));
+  const Json& curves = member(document, "curves", file);
+  if (!curves.is_array()) json_fail(file, "'curves' is not an array");
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    set.curves.push_back(read_record(curves[i], mesh, file + ": curve " + std::to_string(i)));
+  return set;
+}
+
+}  // namespace mimicry::io

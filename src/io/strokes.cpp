@@ -1,0 +1,223 @@
+#include <utility>
+
+#include <mimicry/io/strokes.h>
+
+#include "io/json.h"
+
+namespace mimicry::io {
+namespace {
+
+using stroke::CoordinateConvention;
+using stroke::Frame;
+using stroke::Intention;
+using stroke::Pose;
+using stroke::Stroke;
+
+constexpr const char* kFormat = "mimicry-strokes";
+
+Pose read_pose(const Json& value, const std::string& where) {
+  return {vector<3>(member(value, "position", where), where + ": position"),
+          quaternion(member(value, "orientation", where), where + ": orientation")};
+}
+
+Frame read_frame(const Json& value, const std::string& where) {
+  Frame frame;
+  frame.time_s = number(member(value, "time_s", where), where + ": time_s");
+  frame.head = read_pose(member(value, "head", where), where + ": head");
+  frame.controller = read_pose(member(value, "controller", where), where + ": controller");
+  frame.trigger = number(member(value, "trigger", where), where + ": trigger");
+  if (value.contains("pressure")) frame.pressure = number(value["pressure"], where + ": pressure");
+  return frame;
+}
+
+Similarity read_placement(const Json& value, const std::string& where) {
+  return {quaternion(member(value, "rotation", where), where + ": rotation"),
+          vector<3>(member(value, "translation", where), where + ": translation"),
+          number(member(value, "scale", where), where + ": scale")};
+}
+
+Intention read_intention(const Json& value, const std::string& where) {
+  Intention intention;
+  intention.name = text(member(value, "name", where), where + ": name");
+  const Json& closed = member(value, "closed", where);
+  if (!closed.is_boolean()) json_fail(where, "'closed' is not true or false");
+  intention.closed = closed.get<bool>();
+  const Json& faces = member(value, "face", where);
+  const Json& bary = member(value, "bary", where);
+  if (!faces.is_array() || !bary.is_array() || faces.size() != bary.size())
+    json_fail(where, "'face' and 'bary' are not arrays of the same length");
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::string point = where + ": point " + std::to_string(i);
+    intention.points.push_back({index(faces[i], point), vector<3>(bary[i], point)});
+  }
+  return intention;
+}
+
+// The rotation of a placement is checked before it is converted, which would hide its length.
+Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
+                   const std::string& where) {
+  Stroke stroke;
+  stroke.id = text(member(value, "id", where), where + ": id");
+  stroke.target = text(member(value, "target", where), where + ": target");
+  stroke.model_to_world =
+      read_placement(member(value, "model_to_world", where), where + ": model_to_world");
+  if (value.contains("intended"))
+    stroke.intended = read_intention(value["intended"], where + ": intended");
+  const Json& frames = member(value, "frames", where);
+  if (!frames.is_array()) json_fail(where, "'frames' is not an array");
+  stroke.frames.reserve(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    stroke.frames.push_back(read_frame(frames[i], where + ": frame " + std::to_string(i)));
+  try {
+    stroke::require_usable(stroke);
+  } catch (const Error& error) {
+    throw Error(error.kind(), where + ": " + error.what());
+  }
+  stroke.model_to_world = convention.placement_in(stroke.model_to_world);
+  for (Frame& frame : stroke.frames) frame = convention.frame_in(frame);
+  return stroke;
+}
+
+// What stands before the strokes: the parser hands the members over one by one.
+struct Header {
+  std::string name;
+  std::string format;
+  std::int64_t version = 0;
+  const CoordinateConvention* convention = nullptr;
+
+  void set(const std::string& key, const Json& value) {
+    if (key == "format") {
+      format = value.is_string() ? value.get<std::string>() : "";
+      if (format != kFormat)
+        throw Error(ErrorKind::invalid_input,
+                    name + ": is not a " + kFormat + " file ('format' says otherwise)");
+    } else if (key == "version") {
+      version = value.is_number_integer() ? value.get<std::int64_t>() : -1;
+      if (version != kStrokesVersion)
+        throw Error(ErrorKind::unsupported,
+                    name + ": version " + value.dump() + " of " + kFormat +
+                        " is not known (this program reads " + std::to_string(kStrokesVersion) +
+                        "); update the program or export the strokes again");
+    } else if (key == "convention") {
+      const std::string wanted = value.is_string() ? value.get<std::string>() : value.dump();
+      convention = stroke::find_convention(wanted);
+      if (convention == nullptr)
+        throw Error(ErrorKind::invalid_input, name + ": convention '" + wanted +
+                                                  "' is not known; use openxr, unity, unreal or "
+                                                  "paper");
+    }
+  }
+  void require_complete() const {
+    if (format.empty() || version == 0 || convention == nullptr)
+      throw Error(ErrorKind::invalid_input,
+                  name + ": 'format', 'version' and 'convention' must stand before 'strokes'");
+  }
+};
+
+OrderedJson to_json(const Pose& pose) {
+  return {{"position", array_of(pose.position)}, {"orientation", array_of(pose.orientation)}};
+}
+
+OrderedJson to_json(const Frame& frame) {
+  OrderedJson value = {{"time_s", frame.time_s},
+                       {"head", to_json(frame.head)},
+                       {"controller", to_json(frame.controller)},
+                       {"trigger", frame.trigger}};
+  if (frame.pressure) value["pressure"] = *frame.pressure;
+  return value;
+}
+
+OrderedJson to_json(const Intention& intention) {
+  OrderedJson faces = OrderedJson::array();
+  OrderedJson bary = OrderedJson::array();
+  for (const SurfacePoint& p : intention.points) {
+    faces.push_back(p.face);
+    bary.push_back(array_of(p.bary));
+  }
+  return {{"name", intention.name}, {"closed", intention.closed}, {"face", faces}, {"bary", bary}};
+}
+
+}  // namespace
+
+void read_strokes(std::string_view bytes, std::string_view name,
+                  const std::function<void(Stroke&&)>& visit) {
+  Header header;
+  header.name = name;
+  std::string key;
+  std::size_t count = 0;
+  bool has_strokes = false;
+  const auto event = [&](int depth, Json::parse_event_t kind, Json& value) {
+    using Event = Json::parse_event_t;
+    if (depth == 1 && kind == Event::key) key = value.get<std::string>();
+    if (depth == 1 && kind == Event::value) header.set(key, value);
+    if (depth == 1 && kind == Event::array_start && key == "strokes") {
+      header.require_complete();
+      has_strokes = true;
+    }
+    if (depth == 2 && kind == Event::object_end && key == "strokes") {
+      visit(read_stroke(value, *header.convention,
+                        header.name + ": stroke " + std::to_string(count++)));
+      return false;  // the value is not kept
+    }
+    return true;
+  };
+  try {
+    const Json rest = Json::parse(bytes.begin(), bytes.end(), event);
+  } catch (const Json::parse_error& error) {
+    throw Error(ErrorKind::invalid_input, header.name + ": stroke " + std::to_string(count) +
+                                              ": the text ends early or is not JSON at byte " +
+                                              std::to_string(error.byte) +
+                                              "; export the strokes again");
+  } catch (const Json::exception& error) {
+    throw Error(ErrorKind::invalid_input,
+                header.name + ": stroke " + std::to_string(count) + ": " + error.what());
+  }
+  if (!has_strokes)
+    throw Error(ErrorKind::invalid_input,
+                header.name + ": is not a " + kFormat + " file (there is no array 'strokes')");
+}
+
+std::vector<Stroke> read_strokes(std::string_view bytes, std::string_view name) {
+  std::vector<Stroke> strokes;
+  read_strokes(bytes, name, [&](Stroke&& stroke) { strokes.push_back(std::move(stroke)); });
+  return strokes;
+}
+
+StrokeWriter::StrokeWriter(Sink sink, const CoordinateConvention& convention)
+    : sink_(std::move(sink)), convention_(&convention) {
+  sink_("{\"format\":\"" + std::string(kFormat) +
+        "\",\"version\":" + std::to_string(kStrokesVersion) + ",\"convention\":\"" +
+        std::string(convention.name) + "\",\"strokes\":[");
+}
+
+void StrokeWriter::write(const Stroke& stroke) {
+  stroke::require_usable(stroke);
+  const Similarity placed = convention_->placement_out(stroke.model_to_world);
+  OrderedJson value = {{"id", stroke.id},
+                       {"target", stroke.target},
+                       {"model_to_world",
+                        {{"rotation", array_of(placed.rotation)},
+                         {"translation", array_of(placed.translation)},
+                         {"scale", placed.scale}}}};
+  if (stroke.intended) value["intended"] = to_json(*stroke.intended);
+  OrderedJson& frames = value["frames"] = OrderedJson::array();
+  for (const Frame& frame : stroke.frames) frames.push_back(to_json(convention_->frame_out(frame)));
+  // Text that is not UTF-8 would throw; ids and names are replaced where they are not.
+  const std::string dumped = value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  sink_((first_ ? "\n" : ",\n") + dumped);
+  first_ = false;
+}
+
+void StrokeWriter::finish() {
+  sink_("\n]}\n");
+}
+
+std::string write_strokes(std::span<const Stroke> strokes, const CoordinateConvention& convention) {
+  std::string text;
+  StrokeWriter writer([&](std::string_view piece) { text += piece; }, convention);
+  for (const Stroke& stroke : strokes) writer.write(stroke);
+  writer.finish();
+  return text;
+}
+
+}  // namespace mimicry::io
