@@ -51,6 +51,12 @@ class HalfEdges {
   bool is_nonmanifold_vertex(Index v) const { return nonmanifold_[static_cast<std::size_t>(v)]; }
   bool is_manifold() const { return manifold_; }
 
+  /// Heap memory held.
+  std::size_t memory_bytes() const {
+    return (twins_.capacity() + tails_.capacity() + outgoing_.capacity()) * sizeof(Index) +
+           nonmanifold_.capacity() / 8;
+  }
+
  private:
   std::vector<Index> twins_;       // #H
   std::vector<Index> tails_;       // #H, the faces' corners

@@ -55,6 +55,12 @@ class TriangleMesh {
   /// Writes new positions in place; for the owner of a target that deforms.
   void set_positions(std::span<const Vec3> positions);
 
+  /// Heap memory held.
+  std::size_t memory_bytes() const {
+    return positions_.capacity() * sizeof(Vec3) + faces_.capacity() * sizeof(Face) +
+           polygons_.capacity() * sizeof(Index);
+  }
+
  private:
   std::vector<Vec3> positions_;
   std::vector<Face> faces_;

@@ -1,0 +1,234 @@
+#pragma once
+
+// Traversals of `Bvh`; included by bvh.h.
+
+namespace mimicry::spatial {
+
+template <int Dim, class PrimitiveType>
+std::int32_t Bvh<Dim, PrimitiveType>::push_all_but_nearest(const Node& node, unsigned hit,
+                                                           Float4 key, Entry* stack, int& top) {
+  const int first = __builtin_ctz(hit);
+  hit &= hit - 1;
+  std::int32_t nearest = node.children[static_cast<std::size_t>(first)];
+  if (hit == 0) return nearest;
+  float nearest_key = key[first];
+  const int base = top;
+  do {
+    const int lane = __builtin_ctz(hit);
+    hit &= hit - 1;
+    Entry entry = {key[lane], node.children[static_cast<std::size_t>(lane)]};
+    if (entry.key < nearest_key) {
+      std::swap(entry.key, nearest_key);
+      std::swap(entry.child, nearest);
+    }
+    // At most three: the farthest lies deepest.
+    int at = top++;
+    while (at > base && stack[at - 1].key < entry.key) {
+      stack[at] = stack[at - 1];
+      --at;
+    }
+    stack[at] = entry;
+  } while (hit != 0);
+  return nearest;
+}
+
+template <int Dim, class PrimitiveType>
+template <class Visit>
+void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& visit) const {
+  if (primitives_.empty()) return;
+  const Point local = inside(y);
+  // From afar a float cannot tell the boxes apart.
+  if (!(local.cwiseAbs().maxCoeff() < 256.0)) return nearest_from_afar(y, bound2, visit);
+  std::array<Float4, Dim> low, high;
+  for (int k = 0; k < Dim; ++k) {
+    low[static_cast<std::size_t>(k)] = splat(down(local[k] - kBoxPad * 256.0));
+    high[static_cast<std::size_t>(k)] = splat(up(local[k] + kBoxPad * 256.0));
+  }
+  const double scale2 = scale_ * scale_;
+  float bound = bound_up(bound2 * scale2);
+
+  std::array<Entry, kStack> stack;
+  int top = 0;
+  std::int32_t child = root_;
+  while (true) {
+    while (child >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(child)];
+      Float4 distance2 = splat(0.0F);
+      for (std::size_t k = 0; k < Dim; ++k) {
+        const Float4 d =
+            max(max(node.planes[k] - high[k], low[k] - node.planes[k + Dim]), splat(0.0F));
+        distance2 += d * d;
+      }
+      const unsigned hit = bits(distance2 <= splat(bound));
+      if (hit == 0) goto next;
+      child = push_all_but_nearest(node, hit, distance2, stack.data(), top);
+    }
+    for_each_slot(child, [&](std::size_t slot) {
+      const double smaller = visit(numbers_[slot], primitives_[slot], bound2);
+      if (smaller < bound2) {
+        bound2 = smaller;
+        bound = bound_up(bound2 * scale2);
+      }
+    });
+  next:
+    do {
+      if (top == 0) return;
+      --top;
+    } while (stack[static_cast<std::size_t>(top)].key > bound);
+    child = stack[static_cast<std::size_t>(top)].child;
+  }
+}
+
+template <int Dim, class PrimitiveType>
+template <class Visit>
+void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
+                                                Visit&& visit) const {
+  struct FarEntry {
+    double key;
+    std::int32_t child;
+  };
+  const Point local = inside(y);
+  const double scale2 = scale_ * scale_;
+  const auto limit = [&](double b) { return b * scale2 * (1.0 + 1e-12); };
+  // Of one coordinate's rounding, and of the boxes'.
+  const double pad = 1e-15 * local.cwiseAbs().maxCoeff();
+
+  std::array<FarEntry, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = {0.0, root_};
+  while (top > 0) {
+    const FarEntry entry = stack[--top];
+    if (entry.key > limit(bound2)) continue;
+    if (entry.child < 0) {
+      for_each_slot(entry.child, [&](std::size_t slot) {
+        bound2 = std::min(bound2, visit(numbers_[slot], primitives_[slot], bound2));
+      });
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
+    const std::size_t base = top;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const std::int32_t child = node.children[static_cast<std::size_t>(lane)];
+      if (child == kUnused) continue;
+      double key = 0.0;
+      for (int k = 0; k < Dim; ++k) {
+        const double low = static_cast<double>(node.planes[static_cast<std::size_t>(k)][lane]);
+        const double high =
+            static_cast<double>(node.planes[static_cast<std::size_t>(k + Dim)][lane]);
+        const double d = std::max({low - local[k] - pad, local[k] - high - pad, 0.0});
+        key += d * d;
+      }
+      if (key > limit(bound2)) continue;
+      std::size_t at = top++;
+      for (; at > base && stack[at - 1].key < key; --at) stack[at] = stack[at - 1];
+      stack[at] = {key, child};
+    }
+  }
+}
+
+template <int Dim, class PrimitiveType>
+template <class Visit>
+bool Bvh<Dim, PrimitiveType>::containing(const Point& y, Visit&& visit) const {
+  if (primitives_.empty()) return false;
+  const Point local = inside(y);
+  if (!(local.cwiseAbs().maxCoeff() <= 1.0)) return false;
+  std::array<Float4, Dim> low, high;
+  for (int k = 0; k < Dim; ++k) {
+    low[static_cast<std::size_t>(k)] = splat(down(local[k]));
+    high[static_cast<std::size_t>(k)] = splat(up(local[k]));
+  }
+  std::array<std::int32_t, kStack> stack;
+  std::size_t top = 0;
+  stack[top++] = root_;
+  while (top > 0) {
+    const std::int32_t child = stack[--top];
+    if (child < 0) {
+      const std::uint32_t code = ~static_cast<std::uint32_t>(child);
+      for (std::size_t slot = code >> 3; slot <= (code >> 3) + (code & 7U); ++slot)
+        if (visit(numbers_[slot], primitives_[slot])) return true;
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(child)];
+    Mask4 in = Mask4{-1, -1, -1, -1};
+    for (std::size_t k = 0; k < Dim; ++k)
+      in &= (node.planes[k] <= high[k]) & (low[k] <= node.planes[k + Dim]);
+    for (unsigned hit = bits(in); hit != 0; hit &= hit - 1)
+      stack[top++] = node.children[static_cast<std::size_t>(__builtin_ctz(hit))];
+  }
+  return false;
+}
+
+template <int Dim, class PrimitiveType>
+template <class Visit>
+void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction, double bound,
+                                    Visit&& visit) const {
+  if (primitives_.empty()) return;
+  // The boxes are met from where the ray enters the content's cube, so that floats serve from any
+  // distance.
+  const Point far_origin = inside(origin);
+  const double size = far_origin.cwiseAbs().maxCoeff();
+  // Covers the rounding of the primitive's own test, relative to its distance from the origin.
+  const double pad = 8e-15 * (1.0 + size);
+  double enter = 0.0, leave = kInfinity;
+  for (int k = 0; k < Dim; ++k) {
+    const double d = std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
+    const double t0 = (-std::copysign(1.0 + pad, d) - far_origin[k]) / d;
+    const double t1 = (std::copysign(1.0 + pad, d) - far_origin[k]) / d;
+    enter = std::max(enter, t0);
+    leave = std::min(leave, t1);
+  }
+  if (enter * (1.0 - 1e-14) > leave * (1.0 + 1e-14)) return;
+  const Point local = far_origin + enter * direction;
+  // A ray that nearly misses from nearly infinitely far: rounding alone decides, and it misses.
+  if (!(local.cwiseAbs().maxCoeff() <= 4.0 + pad)) return;
+
+  std::array<Float4, Dim> near_origin, away_origin, inverse;
+  std::array<std::size_t, Dim> near_plane, away_plane;
+  for (int k = 0; k < Dim; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const bool is_up = !std::signbit(direction[k]);
+    const float low = down(local[k] - pad), high = up(local[k] + pad);
+    near_plane[i] = is_up ? i : i + Dim;
+    away_plane[i] = is_up ? i + Dim : i;
+    near_origin[i] = splat(is_up ? high : low);
+    away_origin[i] = splat(is_up ? low : high);
+    const double d = std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
+    inverse[i] = splat(static_cast<float>(1.0 / d));
+  }
+  const Float4 shrink = splat(1.0F - 6e-7F), grow = splat(1.0F + 6e-7F);
+  const auto limit = [&](double b) { return bound_up(std::max(b * scale_ - enter, 0.0) + pad); };
+  float float_bound = limit(bound);
+
+  std::array<Entry, kStack> stack;
+  int top = 0;
+  std::int32_t child = root_;
+  while (true) {
+    while (child >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(child)];
+      Float4 near = splat(0.0F), away = splat(float_bound);
+      for (std::size_t k = 0; k < Dim; ++k) {
+        near = max(near, (node.planes[near_plane[k]] - near_origin[k]) * inverse[k]);
+        away = min(away, (node.planes[away_plane[k]] - away_origin[k]) * inverse[k] * grow);
+      }
+      near *= shrink;
+      const unsigned hit = bits(near <= away);
+      if (hit == 0) goto next;
+      child = push_all_but_nearest(node, hit, near, stack.data(), top);
+    }
+    for_each_slot(child, [&](std::size_t slot) {
+      const double smaller = visit(numbers_[slot], primitives_[slot], bound);
+      if (smaller < bound) {
+        bound = smaller;
+        float_bound = limit(bound);
+      }
+    });
+  next:
+    do {
+      if (top == 0) return;
+      --top;
+    } while (stack[static_cast<std::size_t>(top)].key > float_bound);
+    child = stack[static_cast<std::size_t>(top)].child;
+  }
+}
+
+}  // namespace mimicry::spatial

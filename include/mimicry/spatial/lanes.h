@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+namespace mimicry::spatial {
+
+/// Four floats in one register through the compiler's vector extension, which gcc and clang share
+/// for every processor and for WebAssembly.
+using Float4 = float __attribute__((vector_size(16)));
+using Mask4 = std::int32_t __attribute__((vector_size(16)));
+
+inline Float4 splat(float x) {
+  return Float4{x, x, x, x};
+}
+inline Float4 min(Float4 a, Float4 b) {
+  return a < b ? a : b;
+}
+inline Float4 max(Float4 a, Float4 b) {
+  return a > b ? a : b;
+}
+/// Bit k is set where lane k of the comparison holds.
+inline unsigned bits(Mask4 m) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4&>(m)));
+#else
+  return (m[0] & 1U) | (m[1] & 2U) | (m[2] & 4U) | (m[3] & 8U);
+#endif
+}
+
+}  // namespace mimicry::spatial
