@@ -46,41 +46,39 @@ TriangleMesh subdivided(QuadMesh mesh, int levels) {
 constexpr int kPalmTop = 3;
 constexpr int kFingerSegments = 4;
 constexpr int kThumbSegments = 3;
+constexpr double kColumns[8] = {0, 1, 1.5, 2.5, 3, 4, 4.5, 5.5};
+constexpr double kRows[5] = {-1.4, 0, 1.4, 2.8, 4};  // from the wrist's end up to the fingers
+
+// A point of a finger's cage: t along it, then across and through it in its own widths.
+Vec3 finger_position(int finger, double t, double across, double through) {
+  constexpr double kLengths[5] = {3.4, 4.0, 4.7, 4.3, 3.3};
+  constexpr double kFan[5] = {-0.82, -0.16, -0.04, 0.07, 0.2};  // radians off +y, towards +x
+  const double root_x = finger == 0 ? 0.0 : kColumns[2 * finger - 2] + 0.5;
+  const double root_y = finger == 0 ? 0.7 : kRows[4];
+  const double curl = finger == 0 ? 0.5 * t : 0.9 * t * t;
+  const double taper = 1 - 0.25 * t;
+  const double along = t * kLengths[finger];
+  const double s = std::sin(kFan[finger]), c = std::cos(kFan[finger]);
+  return 0.2 * Vec3(root_x + along * s + across * taper * c - 2.2,
+                    root_y + along * c - across * taper * s - 3.5, through * taper + curl);
+}
 
 Vec3 hand_position(const LatticePoint& p) {
-  constexpr double kColumns[8] = {0, 1, 1.5, 2.5, 3, 4, 4.5, 5.5};
-  constexpr double kRows[5] = {-1.4, 0, 1.4, 2.8, 4};  // from the wrist's end up to the fingers
-  constexpr double kLengths[4] = {4.0, 4.7, 4.3, 3.3};
-  constexpr double kFan[4] = {-0.16, -0.04, 0.07, 0.2};  // radians off +y
-  constexpr double kThumbLength = 3.4, kThumbAngle = 0.75;
-  const double z = p[2] - 0.5;
-  double x = 0, y = 0, depth = 0, taper = 1;
-  if (p[0] < 0) {  // thumb
-    const double t = static_cast<double>(-p[0]) / kThumbSegments;
-    taper = 1 - 0.25 * t;
-    const double along = t * kThumbLength;
-    const double offset = (p[1] - 0.5) * 1.2 * taper;
-    x = -along * std::cos(kThumbAngle) + offset * std::sin(kThumbAngle);
-    y = 0.7 + along * std::sin(kThumbAngle) + offset * std::cos(kThumbAngle);
-    depth = 0.5 * t;
-  } else if (p[1] > kPalmTop) {  // fingers
-    const int finger = p[0] / 2;
-    const double t = static_cast<double>(p[1] - kPalmTop) / kFingerSegments;
-    taper = 1 - 0.25 * t;
-    const double along = t * kLengths[finger];
-    const double offset = (p[0] % 2 - 0.5) * taper;
-    x = 0.5 * (kColumns[2 * finger] + kColumns[2 * finger + 1]) + along * std::sin(kFan[finger]) +
-        offset * std::cos(kFan[finger]);
-    y = kRows[4] + along * std::cos(kFan[finger]) - offset * std::sin(kFan[finger]);
-    depth = 0.9 * t * t;
-  } else {
-    x = kColumns[p[0]];
-    y = kRows[p[1] + 1];
-  }
-  return 0.2 * Vec3(x - 2.2, y - 3.5, z * taper + depth);
+  const double through = p[2] - 0.5;
+  if (p[0] < 0)
+    return finger_position(0, static_cast<double>(-p[0]) / kThumbSegments, 1.2 * (p[1] - 0.5),
+                           through);
+  if (p[1] > kPalmTop)
+    return finger_position(p[0] / 2 + 1, static_cast<double>(p[1] - kPalmTop) / kFingerSegments,
+                           p[0] % 2 - 0.5, through);
+  return 0.2 * Vec3(kColumns[p[0]] - 2.2, kRows[p[1] + 1] - 3.5, through);
 }
 
 }  // namespace
+
+Vec3 hand_finger_axis(int finger, double t) {
+  return finger_position(finger, t, 0, 0);
+}
 
 TriangleMesh make_hand(int levels) {
   std::set<LatticePoint> cells;

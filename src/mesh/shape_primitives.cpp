@@ -121,21 +121,25 @@ TriangleMesh make_torus(int around, int across, double major_radius, double mino
   });
 }
 
-TriangleMesh make_trefoil(int n) {
+Vec3 trefoil_point(double along, double around) {
   constexpr double kScale = 0.3;
   constexpr double kTubeRadius = 0.5;
-  return closed_sheet(10 * n, n, [=](double t, double v) {
-    const Vec3 centre(std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t),
-                      -std::sin(3 * t));
-    const Vec3 d1(std::cos(t) + 4 * std::cos(2 * t), -std::sin(t) + 4 * std::sin(2 * t),
-                  -3 * std::cos(3 * t));
-    const Vec3 d2(-std::sin(t) - 8 * std::sin(2 * t), -std::cos(t) + 8 * std::cos(2 * t),
-                  9 * std::sin(3 * t));
-    // The knot has no point without curvature, so its Frenet frame closes.
-    const Vec3 binormal = d1.cross(d2).normalized();
-    const Vec3 normal = binormal.cross(d1).normalized();
-    return Vec3(kScale * (centre + kTubeRadius * (std::cos(v) * normal - std::sin(v) * binormal)));
-  });
+  const double t = along;
+  const Vec3 centre(std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t),
+                    -std::sin(3 * t));
+  const Vec3 d1(std::cos(t) + 4 * std::cos(2 * t), -std::sin(t) + 4 * std::sin(2 * t),
+                -3 * std::cos(3 * t));
+  const Vec3 d2(-std::sin(t) - 8 * std::sin(2 * t), -std::cos(t) + 8 * std::cos(2 * t),
+                9 * std::sin(3 * t));
+  // The knot has no point without curvature, so its Frenet frame closes.
+  const Vec3 binormal = d1.cross(d2).normalized();
+  const Vec3 normal = binormal.cross(d1).normalized();
+  return kScale *
+         (centre + kTubeRadius * (std::cos(around) * normal - std::sin(around) * binormal));
+}
+
+TriangleMesh make_trefoil(int n) {
+  return closed_sheet(10 * n, n, trefoil_point);
 }
 
 TriangleMesh make_box(int nx, int ny, int nz, const Vec3& half_size) {
@@ -208,6 +212,11 @@ TriangleMesh make_noisy_cube(int n, double fraction, bool two_sided, std::uint64
   return cube.with_positions(std::move(positions));
 }
 
+Vec3 moebius_point(double along, double w) {
+  const double ring = 0.7 + w * std::cos(along / 2);
+  return {ring * std::cos(along), ring * std::sin(along), w * std::sin(along / 2)};
+}
+
 TriangleMesh make_moebius_strip(int n) {
   const int across = std::max(1, n / 8);
   std::vector<Vec3> positions;
@@ -218,11 +227,8 @@ TriangleMesh make_moebius_strip(int n) {
   };
   for (int i = 0; i < n; ++i) {
     const double u = kTau * i / n;
-    for (int j = 0; j <= across; ++j) {
-      const double w = 0.3 * (2.0 * j / across - 1);
-      const double ring = 0.7 + w * std::cos(u / 2);
-      positions.emplace_back(ring * std::cos(u), ring * std::sin(u), w * std::sin(u / 2));
-    }
+    for (int j = 0; j <= across; ++j)
+      positions.push_back(moebius_point(u, 0.3 * (2.0 * j / across - 1)));
     for (int j = 0; j < across; ++j) {
       faces.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
       faces.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});

@@ -63,6 +63,14 @@ std::optional<Vec3> analytic_closest_point(std::string_view name, const Vec3& x)
 /// units of the shape: 0 for cube and plate; nothing where there is no analytic closest point.
 std::optional<double> faceting_error(std::string_view name, int resolution);
 
+/// Points of the ideal surfaces by their parameters, in radians: along the knot and around the
+/// tube; along the strip, with w in [-0.3, 0.3] across it (w changes sign after a full turn).
+Vec3 trefoil_point(double along, double around);
+Vec3 moebius_point(double along, double w);
+/// Centre line of a finger of the hand, t in [0, 1] from its root to the end of its cage (the
+/// surface ends at about 0.95); finger 0: thumb, 1 to 4: index to little finger.
+Vec3 hand_finger_axis(int finger, double t);
+
 // The shapes with all their parameters. Resolutions are at least those of the registry.
 
 /// Icosahedron with every edge cut into n, projected on the sphere: 20 n^2 faces, none of them
