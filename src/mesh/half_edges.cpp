@@ -31,7 +31,7 @@ HalfEdges::HalfEdges(const TriangleMesh& mesh) {
   {
     std::vector<Index> fill(start.begin(), start.end() - 1);
     for (Index h = 0; h < count(); ++h) {
-      const auto [low, high] = std::minmax(tail(h), head(h));
+      const auto [low, high] = std::minmax({tail(h), head(h)});
       const auto slot = static_cast<std::size_t>(fill[static_cast<std::size_t>(low)]++);
       keyed[slot] = {static_cast<std::uint64_t>(high), h};
     }
