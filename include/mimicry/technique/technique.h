@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <mimicry/mesh/surface_point.h>
+#include <mimicry/spatial/target.h>
+#include <mimicry/stroke/frame.h>
+
+namespace mimicry::technique {
+
+/// What a technique may look at: the target and what was prepared for it.
+struct Canvas {
+  const spatial::Target* target = nullptr;
+};
+
+/// How a point was found; `miss` where there is none.
+enum class Answer : std::uint8_t { miss, ray, closest };
+
+/// What is carried from frame to frame, in model space. The anchor is the last frame that had a
+/// point. A stroke starts with Memory{}. Plain data: copying it is all there is to undo a frame.
+struct Memory {
+  bool anchored = false;         ///< there is an anchor: the first point was found
+  Vec3 pen = Vec3::Zero();       ///< the anchor's p
+  SurfacePoint surface;          ///< the anchor's q; also a hint where to search
+  Vec3 position = Vec3::Zero();  ///< the same in space
+};
+
+struct Options {
+  /// Spray direction in the controller's own axes; any length above 0.
+  Vec3 nozzle = -Vec3::UnitZ();
+};
+
+/// The point for one frame, and what to carry to the next. `surface` and `position` are set where
+/// `answer` is not miss; a miss leaves the memory as it was.
+struct Step {
+  Answer answer = Answer::miss;
+  SurfacePoint surface;
+  Vec3 position = Vec3::Zero();
+  Memory memory;
+};
+
+/// frame: model space, usable (`stroke::frame_problem` is empty). Pure: no clock, no globals, no
+/// allocation.
+using StepFunction = Step (*)(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+
+/// An option by name, for programs and files; the values are 1 number or the 3 of a vector.
+struct OptionInfo {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view description;
+  std::span<const double> (*get)(const Options&);
+  std::span<double> (*edit)(Options&);
+  double lowest, highest;  ///< of each number
+};
+
+struct TechniqueInfo {
+  std::string_view name;
+  std::string_view description;  ///< one line
+  std::string_view source;       ///< section or equation of the paper
+  bool anchored;                 ///< looks at the anchor too, not at the frame alone
+  bool needs_bake;               ///< needs an embedding of the target
+  std::span<const OptionInfo> options;
+  StepFunction step;
+};
+
+/// All techniques, in the order of their documentation.
+std::span<const TechniqueInfo> techniques();
+
+/// Throws Error(invalid_input) with the list of names for one that is not in it.
+const TechniqueInfo& find_technique(std::string_view name);
+
+/// Throws Error(invalid_input) naming technique and option where the technique has no such option,
+/// the count of numbers is wrong, or one is not finite or out of range.
+void set_option(const TechniqueInfo& technique, Options& options, std::string_view name,
+                std::span<const double> values);
+
+}  // namespace mimicry::technique

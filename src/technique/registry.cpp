@@ -1,0 +1,88 @@
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <mimicry/base/error.h>
+#include <mimicry/technique/technique.h>
+
+#include "technique/steps.h"
+
+namespace mimicry::technique {
+namespace {
+
+constexpr std::array<OptionInfo, 1> kSprayOptions = {{
+    {"nozzle", "", "spray direction in the controller's axes (x,y,z)",
+     [](const Options& o) { return std::span<const double>(o.nozzle.data(), 3); },
+     [](Options& o) { return std::span<double>(o.nozzle.data(), 3); }, -1.0, 1.0},
+}};
+
+constexpr std::array<TechniqueInfo, 5> kTechniques = {{
+    {"occlude",
+     "along the line of sight: from the eye through the pen, to what the pen hides",
+     "3.1.1",
+     false,
+     false,
+     {},
+     occlude},
+    {"spraycan", "along the controller's nozzle, as from a spray can or a laser pointer", "3.1.1",
+     false, false, kSprayOptions, spraycan},
+    {"head-centric",
+     "along the head's forward axis: the curve is drawn by looking",
+     "3.1.1",
+     false,
+     false,
+     {},
+     head_centric},
+    {"snap", "to the closest point of the surface", "3.1.2", false, false, {}, snap},
+    {"anchored-closest", "the hand's motion is added to the last point, then the closest point",
+     "4.1", true, false, kSprayOptions, anchored_closest},
+}};
+
+}  // namespace
+
+std::span<const TechniqueInfo> techniques() {
+  return kTechniques;
+}
+
+const TechniqueInfo& find_technique(std::string_view name) {
+  std::string names;
+  for (const TechniqueInfo& t : kTechniques) {
+    if (t.name == name) return t;
+    names += (names.empty() ? "" : ", ") + std::string(t.name);
+  }
+  throw Error(ErrorKind::invalid_input,
+              "technique '" + std::string(name) + "' does not exist; choose one of " + names);
+}
+
+void set_option(const TechniqueInfo& technique, Options& options, std::string_view name,
+                std::span<const double> values) {
+  const std::string label = std::string(technique.name) + ": option '" + std::string(name) + "'";
+  std::string names;
+  for (const OptionInfo& info : technique.options) {
+    if (info.name != name) {
+      names += (names.empty() ? "" : ", ") + std::string(info.name);
+      continue;
+    }
+    const std::span<double> stored = info.edit(options);
+    if (values.size() != stored.size())
+      throw Error(ErrorKind::invalid_input, label + " takes " + std::to_string(stored.size()) +
+                                                " numbers, not " + std::to_string(values.size()));
+    double largest = 0.0;
+    for (const double v : values) {
+      if (!(v >= info.lowest && v <= info.highest))
+        throw Error(ErrorKind::invalid_input, label + ": " + std::to_string(v) +
+                                                  " is not between " + std::to_string(info.lowest) +
+                                                  " and " + std::to_string(info.highest));
+      largest = std::max(largest, std::abs(v));
+    }
+    if (values.size() == 3 && largest == 0.0)
+      throw Error(ErrorKind::invalid_input, label + " is a direction and cannot be zero");
+    std::copy(values.begin(), values.end(), stored.begin());
+    return;
+  }
+  throw Error(
+      ErrorKind::invalid_input,
+      label + " does not exist; " + (names.empty() ? "it has none" : "its options are " + names));
+}
+
+}  // namespace mimicry::technique
