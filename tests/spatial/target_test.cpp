@@ -1,7 +1,5 @@
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -12,27 +10,12 @@
 #include <mimicry/spatial/target.h>
 
 #include "spatial/meshes.h"
-
-namespace {
-long allocations = 0;
-}
-
-// Counts every allocation of this program.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
+#include "support/allocations.h"
 
 namespace mimicry::spatial {
 namespace {
 
+using mimicry::testing::allocation_count;
 using ::testing::HasSubstr;
 using testing::Random;
 using testing::uniform_vector;
@@ -191,9 +174,9 @@ TEST(Target, MovedPositionsAnswerAsANewTarget) {
   const TriangleMesh mesh = testing::torus(40, 20);
   Target moved(mesh);
   const TriangleMesh shape = testing::transformed(mesh, 0.01, Vec3(3, 4, 5));
-  const long before = allocations;
+  const long before = allocation_count();
   moved.update_positions(shape.positions());
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocation_count(), before);
   const Target fresh(shape);
   EXPECT_EQ(moved.diagonal(), fresh.diagonal());
   Random random(42);
@@ -225,7 +208,7 @@ TEST(Target, BadPositionsChangeNothing) {
 TEST(Target, QueriesAllocateNothing) {
   const Target target(testing::torus(100, 50));
   Random random(43);
-  const long before = allocations;
+  const long before = allocation_count();
   Index hint = kNone;
   double sum = 0.0;
   for (int i = 0; i < 500; ++i) {
@@ -235,7 +218,7 @@ TEST(Target, QueriesAllocateNothing) {
     sum += p->distance;
     if (const auto hit = target.first_hit(y, -y)) sum += hit->distance;
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocation_count(), before);
   EXPECT_GT(sum, 0.0);
 }
 

@@ -21,7 +21,7 @@ inline Float4 max(Float4 a, Float4 b) {
 /// Bit k is set where lane k of the comparison holds.
 inline unsigned bits(Mask4 m) {
 #if defined(__SSE2__)
-  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4&>(m)));
+  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(m)));
 #else
   return (m[0] & 1U) | (m[1] & 2U) | (m[2] & 4U) | (m[3] & 8U);
 #endif
