@@ -104,18 +104,16 @@ std::optional<ClosestPoint> Target::closest_point(const Vec3& y, double upper_bo
   const NearestTriangle best = nearest_triangle(bvh_, y, bound2, hint, [&](Index f) {
     return triangle_of(mesh_.positions(), mesh_.face(f));
   });
-  if (best.face == kNone) return std::nullopt;
-  const SurfacePoint p = {best.face, best.bary};
-  return ClosestPoint{p, mesh_.position(p), std::sqrt(best.distance2)};
+  if (best.surface.face == kNone) return std::nullopt;
+  return ClosestPoint{best.surface, best.position, std::sqrt(best.distance2)};
 }
 
 std::optional<RayHit> Target::first_hit(const Vec3& origin, const Vec3& direction) const {
   const Vec3 d = unit(direction);
   if (!is_usable(origin) || d.isZero(0.0)) return std::nullopt;
   const TriangleOnRay hit = first_on_ray(bvh_, Ray(origin, d));
-  if (hit.face == kNone) return std::nullopt;
-  const SurfacePoint p = {hit.face, hit.bary};
-  return RayHit{p, mesh_.position(p), hit.t};
+  if (hit.surface.face == kNone) return std::nullopt;
+  return RayHit{hit.surface, hit.position, hit.t};
 }
 
 void Target::all_hits(const Vec3& origin, const Vec3& direction, std::vector<RayHit>& hits) const {
@@ -123,8 +121,7 @@ void Target::all_hits(const Vec3& origin, const Vec3& direction, std::vector<Ray
   if (!is_usable(origin) || d.isZero(0.0)) return;
   const auto before = static_cast<std::ptrdiff_t>(hits.size());
   each_on_ray(bvh_, Ray(origin, d), [&](const TriangleOnRay& hit) {
-    const SurfacePoint p = {hit.face, hit.bary};
-    hits.push_back({p, mesh_.position(p), hit.t});
+    hits.push_back({hit.surface, hit.position, hit.t});
   });
   std::sort(hits.begin() + before, hits.end(), [](const RayHit& a, const RayHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.surface.face < b.surface.face;

@@ -72,22 +72,23 @@ struct Both {
   void expect_same(const Vec3& y, double bound2, Index hint, const std::string& where) const {
     const NearestTriangle a = nearest_triangle(bvh, y, bound2, hint, get());
     const NearestTriangle b = nearest_triangle(brute, y, bound2, kNone, get());
-    ASSERT_EQ(a.face, b.face) << where << " at " << y.transpose();
+    ASSERT_EQ(a.surface.face, b.surface.face) << where << " at " << y.transpose();
     ASSERT_EQ(a.distance2, b.distance2) << where;
-    ASSERT_EQ(a.bary, b.bary) << where;
+    ASSERT_EQ(a.surface.bary, b.surface.bary) << where;
   }
   void expect_same_ray(const Vec3& origin, const Vec3& direction, const std::string& where) const {
     const Ray ray(origin, direction);
     const TriangleOnRay a = first_on_ray(bvh, ray);
     const TriangleOnRay b = first_on_ray(brute, ray);
-    ASSERT_EQ(a.face, b.face) << where << " from " << origin.transpose() << " to "
-                              << direction.transpose();
+    ASSERT_EQ(a.surface.face, b.surface.face)
+        << where << " from " << origin.transpose() << " to " << direction.transpose();
     ASSERT_EQ(a.t, b.t) << where;
-    ASSERT_EQ(a.bary, b.bary) << where;
+    ASSERT_EQ(a.surface.bary, b.surface.bary) << where;
     double sum_a = 0.0, sum_b = 0.0;
     int count_a = 0, count_b = 0;
-    each_on_ray(bvh, ray, [&](const TriangleOnRay& h) { sum_a += h.face + 1, ++count_a; });
-    each_on_ray(brute, ray, [&](const TriangleOnRay& h) { sum_b += h.face + 1, ++count_b; });
+    each_on_ray(bvh, ray, [&](const TriangleOnRay& h) { sum_a += h.surface.face + 1, ++count_a; });
+    each_on_ray(brute, ray,
+                [&](const TriangleOnRay& h) { sum_b += h.surface.face + 1, ++count_b; });
     ASSERT_EQ(count_a, count_b) << where;
     ASSERT_EQ(sum_a, sum_b) << where;
   }
@@ -96,7 +97,8 @@ struct Both {
 // Places where ties and rounding matter: corners, middles of sides, points above them, the
 // content's centre, and points at random near and far.
 Vec3 query(Random& random, const TriangleMesh& mesh, double size) {
-  const auto f = static_cast<Index>(random() % static_cast<std::uint64_t>(mesh.face_count()));
+  const auto f =
+      static_cast<Index>(random() % static_cast<std::uint64_t>(mesh.face_count()));
   const Vec3 corner = mesh.corner(f, 0);
   const Vec3 middle = 0.5 * (mesh.corner(f, 0) + mesh.corner(f, 1));
   switch (random() % 8) {
@@ -139,8 +141,8 @@ TEST(Bvh, HintsAndBoundsNeverChangeTheAnswer) {
     Random random(12);
     for (int i = 0; i < 300; ++i) {
       const Vec3 y = query(random, named.mesh, 1.0);
-      const auto hint =
-          static_cast<Index>(random() % static_cast<std::uint64_t>(named.mesh.face_count()));
+      const auto hint = static_cast<Index>(
+          random() % static_cast<std::uint64_t>(named.mesh.face_count()));
       const double exact = nearest_triangle(both.brute, y, kInfinity, kNone, both.get()).distance2;
       ASSERT_NO_FATAL_FAILURE(both.expect_same(y, kInfinity, hint, named.name));
       // The bound itself is allowed; just below it there is nothing.
@@ -148,7 +150,7 @@ TEST(Bvh, HintsAndBoundsNeverChangeTheAnswer) {
       ASSERT_NO_FATAL_FAILURE(both.expect_same(y, exact, kNone, named.name));
       if (exact > 0.0) {
         const double below = std::nextafter(exact, 0.0);
-        EXPECT_EQ(nearest_triangle(both.bvh, y, below, hint, both.get()).face, kNone);
+        EXPECT_EQ(nearest_triangle(both.bvh, y, below, hint, both.get()).surface.face, kNone);
       }
     }
   }
@@ -188,10 +190,10 @@ TEST(Bvh, RefitAnswersAsARebuildDoes) {
     const Vec3 y = query(random, both.mesh, 3.0);
     const NearestTriangle a = nearest_triangle(refitted, y, kInfinity, kNone, both.get());
     const NearestTriangle b = nearest_triangle(both.brute, y, kInfinity, kNone, both.get());
-    ASSERT_EQ(a.face, b.face);
-    ASSERT_EQ(a.bary, b.bary);
+    ASSERT_EQ(a.surface.face, b.surface.face);
+    ASSERT_EQ(a.surface.bary, b.surface.bary);
     const Ray ray(y, unit_vector(random));
-    ASSERT_EQ(first_on_ray(refitted, ray).face, first_on_ray(both.brute, ray).face);
+    ASSERT_EQ(first_on_ray(refitted, ray).surface.face, first_on_ray(both.brute, ray).surface.face);
   }
 }
 

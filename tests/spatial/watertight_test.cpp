@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <mimicry/spatial/bvh.h>
 #include <mimicry/spatial/surface_search.h>
 
 #include "spatial/meshes.h"
@@ -29,7 +30,7 @@ int escapes(const TriangleMesh& mesh, const Vec3& inside, double spread, std::ui
     const Vec3 origin =
         i % 4 == 0 ? inside : Vec3(inside + testing::uniform_vector(random, spread));
     const Vec3 direction = (aim - origin).normalized();
-    if (first_on_ray(bvh, Ray(origin, direction)).face == kNone) ++escaped;
+    if (first_on_ray(bvh, Ray(origin, direction)).surface.face == kNone) ++escaped;
   }
   return escaped;
 }

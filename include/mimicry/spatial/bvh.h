@@ -44,10 +44,9 @@ class Bvh {
   template <class Get>
   void refit(Get&& primitive);
 
-  Index size() const { return static_cast<Index>(primitives_.size()); }
+  Index size() const { return static_cast<Index>(slots_.size()); }
   std::size_t memory_bytes() const {
-    return nodes_.capacity() * sizeof(Node) + primitives_.capacity() * sizeof(Primitive) +
-           numbers_.capacity() * sizeof(Index);
+    return nodes_.capacity() * sizeof(Node) + slots_.capacity() * sizeof(Slot);
   }
 
   /// Branch and bound, nearer boxes first. visit(i, primitive, bound2) returns the new squared
@@ -69,9 +68,13 @@ class Bvh {
  private:
   // Children: a node's number, or ~(first slot << 3 | count - 1) for a leaf; the boxes of unused
   // lanes are empty.
-  struct Node {
+  struct alignas(64) Node {
     std::array<Float4, 2 * Dim> planes;  // lower bounds of the four children by axis, then upper
     std::array<std::int32_t, 4> children;
+  };
+  struct Slot {
+    Primitive primitive;
+    Index number;
   };
   static constexpr int kWidth = 4;
   static constexpr int kMostInLeaf = 4;
@@ -136,8 +139,7 @@ class Bvh {
   void nearest_from_afar(const Point& y, double bound2, Visit&& visit) const;
 
   std::vector<Node> nodes_;  // children come after their parents
-  std::vector<Primitive> primitives_;
-  std::vector<Index> numbers_;  // of the primitives, by slot
+  std::vector<Slot> slots_;  // by leaf
   std::int32_t root_ = 0;
   Point centre_ = Point::Zero();
   double scale_ = 1.0;  // a power of two; content is within [-1, 1]^Dim

@@ -46,7 +46,7 @@ struct Bvh<Dim, PrimitiveType>::Builder {
 
   Bvh& bvh;
   std::vector<Bounds> boxes;
-  std::vector<Index>& order;
+  std::vector<Index> order;
 
   Bounds bounds_of(Index first, Index last) const {
     Bounds b = Bounds::empty();
@@ -203,11 +203,11 @@ Bvh<Dim, PrimitiveType>::Bvh(Index count, Get&& primitive) {
   for (Index i = 0; i < count; ++i) all.extend(primitive(i).box());
   set_frame(all);
 
-  numbers_.resize(static_cast<std::size_t>(count));
-  Builder builder{*this, {}, numbers_};
+  Builder builder{*this, {}, {}};
+  builder.order.resize(static_cast<std::size_t>(count));
   builder.boxes.resize(static_cast<std::size_t>(count));
   for (Index i = 0; i < count; ++i) {
-    numbers_[static_cast<std::size_t>(i)] = i;
+    builder.order[static_cast<std::size_t>(i)] = i;
     const std::array<float, 2 * Dim> box = float_box(primitive(i).box());
     auto& bounds = builder.boxes[static_cast<std::size_t>(i)];
     bounds.low.fill(splat(0.0F));
@@ -220,18 +220,18 @@ Bvh<Dim, PrimitiveType>::Bvh(Index count, Get&& primitive) {
   nodes_.reserve(static_cast<std::size_t>(count) / 4 + 1);
   root_ = builder.build({0, count, builder.bounds_of(0, count)}, 0);
   nodes_.shrink_to_fit();
-  primitives_.reserve(static_cast<std::size_t>(count));
-  for (const Index i : numbers_) primitives_.push_back(primitive(i));
+  slots_.reserve(static_cast<std::size_t>(count));
+  for (const Index i : builder.order) slots_.push_back({primitive(i), i});
 }
 
 template <int Dim, class PrimitiveType>
 template <class Get>
 void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
-  if (primitives_.empty()) return;
+  if (slots_.empty()) return;
   Box all;
-  for (std::size_t slot = 0; slot < primitives_.size(); ++slot) {
-    primitives_[slot] = primitive(numbers_[slot]);
-    all.extend(primitives_[slot].box());
+  for (Slot& slot : slots_) {
+    slot.primitive = primitive(slot.number);
+    all.extend(slot.primitive.box());
   }
   set_frame(all);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
@@ -248,7 +248,8 @@ void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
         }
       } else if (child != kUnused) {
         Box bounds;
-        for_each_slot(child, [&](std::size_t slot) { bounds.extend(primitives_[slot].box()); });
+        for_each_slot(child,
+                      [&](std::size_t slot) { bounds.extend(slots_[slot].primitive.box()); });
         box = float_box(bounds);
       } else {
         continue;

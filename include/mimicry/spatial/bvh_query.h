@@ -35,7 +35,7 @@ std::int32_t Bvh<Dim, PrimitiveType>::push_all_but_nearest(const Node& node, uns
 template <int Dim, class PrimitiveType>
 template <class Visit>
 void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& visit) const {
-  if (primitives_.empty()) return;
+  if (slots_.empty()) return;
   const Point local = inside(y);
   // From afar a float cannot tell the boxes apart.
   if (!(local.cwiseAbs().maxCoeff() < 256.0)) return nearest_from_afar(y, bound2, visit);
@@ -64,7 +64,7 @@ void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& vis
       child = push_all_but_nearest(node, hit, distance2, stack.data(), top);
     }
     for_each_slot(child, [&](std::size_t slot) {
-      const double smaller = visit(numbers_[slot], primitives_[slot], bound2);
+      const double smaller = visit(slots_[slot].number, slots_[slot].primitive, bound2);
       if (smaller < bound2) {
         bound2 = smaller;
         bound = bound_up(bound2 * scale2);
@@ -101,7 +101,7 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
     if (entry.key > limit(bound2)) continue;
     if (entry.child < 0) {
       for_each_slot(entry.child, [&](std::size_t slot) {
-        bound2 = std::min(bound2, visit(numbers_[slot], primitives_[slot], bound2));
+        bound2 = std::min(bound2, visit(slots_[slot].number, slots_[slot].primitive, bound2));
       });
       continue;
     }
@@ -129,7 +129,7 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
 template <int Dim, class PrimitiveType>
 template <class Visit>
 bool Bvh<Dim, PrimitiveType>::containing(const Point& y, Visit&& visit) const {
-  if (primitives_.empty()) return false;
+  if (slots_.empty()) return false;
   const Point local = inside(y);
   if (!(local.cwiseAbs().maxCoeff() <= 1.0)) return false;
   std::array<Float4, Dim> low, high;
@@ -145,7 +145,7 @@ bool Bvh<Dim, PrimitiveType>::containing(const Point& y, Visit&& visit) const {
     if (child < 0) {
       const std::uint32_t code = ~static_cast<std::uint32_t>(child);
       for (std::size_t slot = code >> 3; slot <= (code >> 3) + (code & 7U); ++slot)
-        if (visit(numbers_[slot], primitives_[slot])) return true;
+        if (visit(slots_[slot].number, slots_[slot].primitive)) return true;
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(child)];
@@ -162,7 +162,7 @@ template <int Dim, class PrimitiveType>
 template <class Visit>
 void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction, double bound,
                                     Visit&& visit) const {
-  if (primitives_.empty()) return;
+  if (slots_.empty()) return;
   // The boxes are met from where the ray enters the content's cube, so that floats serve from any
   // distance.
   const Point far_origin = inside(origin);
@@ -216,7 +216,7 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
       child = push_all_but_nearest(node, hit, near, stack.data(), top);
     }
     for_each_slot(child, [&](std::size_t slot) {
-      const double smaller = visit(numbers_[slot], primitives_[slot], bound);
+      const double smaller = visit(slots_[slot].number, slots_[slot].primitive, bound);
       if (smaller < bound) {
         bound = smaller;
         float_bound = limit(bound);

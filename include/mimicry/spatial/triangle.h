@@ -29,6 +29,11 @@ bool has_area(const Triangle& t);
 /// both triangles that share it, so that ties are ties.
 TrianglePoint closest_point(const Triangle& t, const Vec3& y);
 
+/// The triangle is farther from y than the squared bound, by more than all rounding in
+/// `closest_point`: it lies beyond a plane across the way to one of its corners. A third of the
+/// work; false says nothing.
+bool is_farther(const Triangle& t, const Vec3& y, double bound2);
+
 /// A ray set up for the watertight test: Woop, Benthin and Wald, Watertight Ray/Triangle
 /// Intersection, 2013.
 class Ray {
@@ -61,7 +66,7 @@ namespace detail {
 
 // Squared ratios of a triangle's height to its longest side.
 inline constexpr double kNoArea2 = 1e-28;  // rounding of the corners decides which way it faces
-inline constexpr double kNeedle2 = 1e-12;  // its normal is known to 10 digits only
+inline constexpr double kNeedle2 = 1e-6;   // its inner coordinates have lost 3 digits or more
 
 /// Closest point of side pq to y; `weight` is that of q.
 struct Side {
@@ -94,6 +99,14 @@ inline bool has_area(const Triangle& t) {
   return ab.cross(ac).squaredNorm() > detail::kNoArea2 * longest2 * longest2;
 }
 
+inline bool is_farther(const Triangle& t, const Vec3& y, double bound2) {
+  const Vec3 way = t.a - y, ab = t.b - t.a, ac = t.c - t.a;
+  const double way2 = way.squaredNorm();
+  const double rounding = 1e-14 * (way2 + ab.squaredNorm() + ac.squaredNorm());
+  const double least = way2 + std::min({way.dot(ab), way.dot(ac), 0.0}) - rounding;
+  return least > 0.0 && least * least > bound2 * way2;
+}
+
 inline TrianglePoint closest_point(const Triangle& t, const Vec3& y) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, bc = t.c - t.b, ay = y - t.a;
   const Vec3 n = ab.cross(ac);
@@ -106,12 +119,8 @@ inline TrianglePoint closest_point(const Triangle& t, const Vec3& y) {
   TrianglePoint best = {Vec3(1, 0, 0), kInfinity};
   if (u >= 0.0 && v >= 0.0 && w >= 0.0) {
     best.bary = Vec3(u, v, w) / (u + v + w);
-    if (!is_needle) {
-      const double height = n.dot(ay);
-      best.distance2 = height * height / n2;
-      return best;
-    }
     best.distance2 = (best.bary[1] * ab + best.bary[2] * ac - ay).squaredNorm();
+    if (!is_needle) return best;
   }
   // The closest point lies on a side that the query is beyond; a needle's signs are not trusted.
   const auto consider = [&](const Vec3& p, const Vec3& q, int ip, int iq) {
