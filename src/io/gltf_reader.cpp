@@ -115,6 +115,8 @@ class GltfReader {
     } catch (const Json::parse_error& error) {
       fail_at_byte(mesh_.name(), error.byte,
                    "the JSON of the file is broken or cut short; export it again");
+    } catch (const Json::exception&) {
+      fail("", "the JSON holds a number beyond double precision; export the file again");
     }
     if (!root_.is_object()) fail("", "the JSON is no object; give a glTF 2.0 file");
   }
@@ -421,16 +423,14 @@ class GltfReader {
       if (mirrored) std::swap(j, k);
       mesh_.add_polygon(std::array{i, j, k});
     };
-    if (mode == kTriangles) {
+    if (mode == kTriangles)
       for (std::size_t k = 0; k + 2 < c.size(); k += 3) add(c[k], c[k + 1], c[k + 2]);
-    } else if (mode == kFan) {
+    if (mode == kFan)
       for (std::size_t k = 0; k + 2 < c.size(); ++k) add(c[0], c[k + 1], c[k + 2]);
-    } else {
-      for (std::size_t k = 0; k + 2 < c.size(); ++k) {
-        if (c[k] == c[k + 1] || c[k + 1] == c[k + 2] || c[k] == c[k + 2]) continue;
-        add(c[k], c[k + 1 + k % 2], c[k + 2 - k % 2]);
-      }
-    }
+    if (mode == kStrip)
+      for (std::size_t k = 0; k + 2 < c.size(); ++k)
+        if (c[k] != c[k + 1] && c[k + 1] != c[k + 2] && c[k] != c[k + 2])
+          add(c[k], c[k + 1 + k % 2], c[k + 2 - k % 2]);
   }
 
   MeshBuilder& mesh_;

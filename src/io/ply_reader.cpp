@@ -238,6 +238,7 @@ void read_vertices(Source& source, const Element& element, MeshBuilder& mesh) {
     if (found[axis] != 1)
       source.fail(std::string("the element 'vertex' needs one property '") + "xyz"[axis] +
                   "'; export the file again");
+  mesh.reserve(element.count, 0);
   for (std::uint64_t v = 0; v < element.count; ++v) {
     Vec3 position;
     for (std::size_t k = 0; k < axes.size(); ++k) {
@@ -261,6 +262,7 @@ void read_faces(Source& source, const Element& element, std::uint64_t vertex_cou
     source.fail("the element 'face' needs a list 'vertex_indices'; export the file again");
   if (!is_whole(corners_at->type))
     source.fail("the list 'vertex_indices' is of no whole type; export the file again");
+  mesh.reserve(0, element.count);
   std::vector<std::int64_t> items;
   std::vector<Index> corners;
   for (std::uint64_t f = 0; f < element.count; ++f) {
@@ -290,7 +292,8 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
   for (const Element& element : header.elements) {
     if (element.name == "vertex") vertex_count = element.count;
     // No element is smaller than its scalars and list counts: a header that promises more than the
-    // file can hold is found out before anything is allocated.
+    // file can hold is found out before anything is allocated. (One without properties is refused
+    // where it is read.)
     std::uint64_t least = 0;
     for (const Property& property : element.properties)
       least += source.least_size(property.count_type ? *property.count_type : property.type);
@@ -302,12 +305,10 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
     if (element.name == "vertex") {
       if (seen_vertices) source.fail("two elements 'vertex'; export the file again");
       seen_vertices = true;
-      mesh.reserve(element.count, 0);
       read_vertices(source, element, mesh);
     } else if (element.name == "face") {
       if (seen_faces) source.fail("two elements 'face'; export the file again");
       seen_faces = true;
-      mesh.reserve(0, element.count);
       read_faces(source, element, vertex_count, mesh);
     } else if (!element.properties.empty()) {
       for (std::uint64_t n = 0; n < element.count; ++n)

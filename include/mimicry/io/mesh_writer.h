@@ -14,7 +14,8 @@ struct MeshWriteOptions {
 /// The bytes of a file that holds the mesh's triangles; source polygons are not put together
 /// again. OBJ, OFF and PLY keep every bit of the coordinates; STL and GLB hold single precision by
 /// format, in either form. STL and GLB throw Error(invalid_input) for a coordinate that is not
-/// finite in single precision; glTF throws Error(unsupported), write GLB. O(#V + #F).
+/// finite in single precision; GLB for a mesh without faces; glTF throws Error(unsupported), write
+/// GLB. O(#V + #F).
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options = {});
 
