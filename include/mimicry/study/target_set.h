@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::study {
+
+/// An intended curve of a study task.
+struct TargetCurve {
+  std::vector<SurfacePoint> points;
+  std::vector<Index> keypoints;  ///< numbers of points, increasing; empty where unpublished
+};
+
+struct TargetShape {
+  std::string name;
+  double scale = 1.0;  ///< metres per mesh unit at which the shape was shown
+  std::vector<TargetCurve> curves;
+};
+
+struct TargetSet {
+  std::vector<TargetShape> shapes;
+
+  /// nullptr for an unknown name.
+  const TargetShape* find(std::string_view name) const {
+    for (const TargetShape& shape : shapes)
+      if (shape.name == name) return &shape;
+    return nullptr;
+  }
+};
+
+/// Throws Error(invalid_input), naming shape, curve and point, where a point names a face that the
+/// mesh has not: the mesh is another one, or its faces stand in another order.
+void require_fits(const TargetShape& shape, const TriangleMesh& mesh);
+
+}  // namespace mimicry::study

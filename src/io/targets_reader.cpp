@@ -1,0 +1,85 @@
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include <mimicry/io/targets_reader.h>
+
+#include "io/json.h"
+
+namespace mimicry::io {
+namespace {
+
+constexpr double kRounding = 1e-3;  // the published ones are off by up to 8e-5
+
+const Json& array(const Json& object, const char* key, const std::string& where) {
+  const Json& value = member(object, key, where);
+  if (!value.is_array()) json_fail(where, std::string("'") + key + "' is not an array");
+  return value;
+}
+
+SurfacePoint read_point(const Json& face, const Json& bary, const std::string& where) {
+  SurfacePoint p{index(face, where), vector<3>(bary, where)};
+  if (p.bary.minCoeff() < -kRounding || std::abs(p.bary.sum() - 1) > kRounding)
+    json_fail(where, "barycentric coordinates are negative or do not sum to 1");
+  p.bary = p.bary.cwiseMax(0.0);
+  p.bary /= p.bary.sum();
+  return p;
+}
+
+study::TargetCurve read_curve(const Json& value, const std::string& where) {
+  study::TargetCurve curve;
+  const Json& faces = array(value, "face", where);
+  const Json& bary = array(value, "bary", where);
+  if (faces.size() != bary.size())
+    json_fail(where, "'face' has " + std::to_string(faces.size()) + " entries, 'bary' " +
+                         std::to_string(bary.size()));
+  curve.points.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    curve.points.push_back(read_point(faces[i], bary[i], where + ": point " + std::to_string(i)));
+  if (!value.contains("keypoints")) return curve;
+  Index previous = kNone;
+  for (const Json& entry : array(value, "keypoints", where)) {
+    const Index keypoint = index(entry, where + ": keypoints");
+    if (keypoint <= previous || static_cast<std::size_t>(keypoint) >= curve.points.size())
+      json_fail(where, "keypoint " + std::to_string(keypoint) +
+                           " does not increase or lies beyond the curve's points");
+    curve.keypoints.push_back(keypoint);
+    previous = keypoint;
+  }
+  return curve;
+}
+
+study::TargetShape read_shape(const Json& value, std::string where) {
+  study::TargetShape shape;
+  shape.name = text(member(value, "name", where), where + ": name");
+  where += " (" + shape.name + ")";
+  shape.scale = number(member(value, "scale", where), where + ": scale");
+  if (!(shape.scale > 0)) json_fail(where, "'scale' is not positive");
+  const Json& curves = array(value, "curves", where);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    shape.curves.push_back(read_curve(curves[i], where + ": curve " + std::to_string(i)));
+  return shape;
+}
+
+}  // namespace
+
+study::TargetSet read_targets(std::string_view bytes, std::string_view name) {
+  const std::string file(name);
+  study::TargetSet set;
+  try {
+    const Json root = Json::parse(bytes.begin(), bytes.end());
+    const Json& shapes = array(root, "shapes", file);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      set.shapes.push_back(read_shape(shapes[i], file + ": shape " + std::to_string(i)));
+  } catch (const Json::parse_error& error) {
+    throw Error(ErrorKind::invalid_input, file + ": the text ends early or is not JSON at byte " +
+                                              std::to_string(error.byte) +
+                                              "; fetch the file again");
+  } catch (const Json::exception& error) {
+    throw Error(ErrorKind::invalid_input, file + ": " + error.what());
+  }
+  return set;
+}
+
+}  // namespace mimicry::io
