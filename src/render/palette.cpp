@@ -10,19 +10,19 @@ constexpr Color hex(unsigned rgb) {
 }
 
 constexpr std::array kColors = {
-    PaletteEntry{"occlude", hex(0xa7b0fb)},
+    PaletteEntry{"occlude", hex(0x576aff)},
     PaletteEntry{"spraycan", hex(0xd55e00)},
-    PaletteEntry{"head-centric", hex(0xae8657)},
-    PaletteEntry{"snap", hex(0x9b84ff)},
-    PaletteEntry{"snap-smooth", hex(0x2a3064)},
+    PaletteEntry{"head-centric", hex(0xae8e4f)},
+    PaletteEntry{"snap", hex(0xcaa2ff)},
+    PaletteEntry{"snap-smooth", hex(0x442567)},
     PaletteEntry{"anchored-closest", hex(0xe69f00)},
     PaletteEntry{"mimicry", hex(0x0072b2)},
-    PaletteEntry{"mimicry-planar", hex(0x0000cd)},
-    PaletteEntry{"mimicry-offset", hex(0x007e95)},
-    PaletteEntry{"mimicry-parallel", hex(0x235532)},
-    PaletteEntry{"anchored-ray-plane", hex(0xddcc77)},
-    PaletteEntry{"anchored-ray-transport", hex(0x903d00)},
-    PaletteEntry{"mimicry-live", hex(0x0d7c6d)},
+    PaletteEntry{"mimicry-planar", hex(0x0000f9)},
+    PaletteEntry{"mimicry-offset", hex(0x00788d)},
+    PaletteEntry{"mimicry-parallel", hex(0x165e3c)},
+    PaletteEntry{"anchored-ray-plane", hex(0x95c86c)},
+    PaletteEntry{"anchored-ray-transport", hex(0x8d3a05)},
+    PaletteEntry{"mimicry-live", hex(0x009e73)},
 };
 
 }  // namespace
