@@ -1,7 +1,9 @@
 #include <mimicry/base/float_traps.h>
 
-#if defined(__GLIBC__) && (defined(__x86_64__) || defined(__aarch64__))
+// Before the test below: a header of the C library is what defines __GLIBC__.
 #include <cfenv>
+
+#if defined(__GLIBC__) && (defined(__x86_64__) || defined(__aarch64__))
 
 namespace mimicry {
 namespace {
