@@ -1,11 +1,12 @@
-# mimicry_module(NAME [SOURCES files...] [DEPENDS modules...] [LIBRARIES targets...] [TOOL])
+# mimicry_module(NAME [SOURCES files...] [DEPENDS modules...] [LIBRARIES targets...] [TOOL] [INSTALL])
 #
 # One library target per module, `mimicry_NAME` (alias mimicry::NAME). Public headers stand under
 # include/mimicry/NAME. A target sees the headers of its own module and of the modules that it
 # depends on, through a folder of links made here, and no others: this is what keeps the one-way
-# order of docs/architecture.md. TOOL modules need more than Eigen and stay out of the runtime.
+# order of docs/architecture.md. TOOL modules need more than Eigen and stay out of the runtime;
+# they are installed where INSTALL is given (their needs are then header-only and private).
 function(mimicry_module name)
-  cmake_parse_arguments(ARG "TOOL" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "TOOL;INSTALL" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
   set(target mimicry_${name})
   set(links "${PROJECT_BINARY_DIR}/include/${name}")
   file(MAKE_DIRECTORY "${links}/mimicry")
@@ -32,6 +33,8 @@ function(mimicry_module name)
   target_link_libraries(${target} ${scope} ${ARG_LIBRARIES})
   if(NOT ARG_TOOL)
     set_property(GLOBAL APPEND PROPERTY MIMICRY_RUNTIME_MODULES ${target})
+  endif()
+  if(ARG_INSTALL OR NOT ARG_TOOL)
     set_property(GLOBAL APPEND PROPERTY MIMICRY_INSTALLED ${target})
     set_property(GLOBAL APPEND PROPERTY MIMICRY_INSTALLED_HEADERS ${name})
   endif()

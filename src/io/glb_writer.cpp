@@ -5,57 +5,118 @@
 #include <mimicry/base/error.h>
 
 #include "io/binary.h"
+#include "io/glb.h"
 #include "io/mesh_writers.h"
 
 namespace mimicry::io {
+namespace {
 
-std::string write_glb(const TriangleMesh& mesh) {
-  using Json = nlohmann::ordered_json;
-  if (mesh.face_count() == 0)
-    throw Error(ErrorKind::invalid_input, "mesh: GLB cannot hold a mesh without faces; add one");
+using Json = nlohmann::ordered_json;
+
+constexpr int kFloat = 5126;
+constexpr int kUnsignedInt = 5125;
+constexpr int kVertices = 34962;  // ARRAY_BUFFER
+constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
+
+// Collects the binary chunk and the lists of the JSON chunk that point into it.
+struct Scene {
   std::string binary;
-  Eigen::AlignedBox3f box;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const Eigen::Vector3f position = to_single(mesh, v, "GLB");
-    box.extend(position);
-    for (const float x : position) append_little_endian(binary, x);
+  Json views = Json::array();
+  Json accessors = Json::array();
+  Json meshes = Json::array();
+  Json nodes = Json::array();
+  Json materials = Json::array();
+
+  // The bytes from `start` to the end become a view with an accessor; its number is returned.
+  std::size_t close_view(std::size_t start, int target, int component, Index count,
+                         const char* type) {
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", start},
+                     {"byteLength", binary.size() - start},
+                     {"target", target}});
+    accessors.push_back({{"bufferView", views.size() - 1},
+                         {"componentType", component},
+                         {"count", count},
+                         {"type", type}});
+    return accessors.size() - 1;
   }
-  const std::size_t indices_at = binary.size();
-  for (const Face& face : mesh.faces())
-    for (const Index v : face) append_little_endian(binary, v);
 
-  const auto triple = [](const Eigen::Vector3f& x) { return Json{x[0], x[1], x[2]}; };
-  constexpr int kVertices = 34962;  // ARRAY_BUFFER
-  constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
-  Json root;
-  root["asset"] = {{"version", "2.0"}, {"generator", "mimicry"}};
-  root["scene"] = 0;
-  root["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
-  root["nodes"] = Json::array({{{"mesh", 0}}});
-  root["meshes"] = Json::array(
-      {{{"primitives",
-         Json::array({{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", 4}}})}}});
-  root["accessors"] = Json::array({{{"bufferView", 0},
-                                    {"componentType", 5126},
-                                    {"count", mesh.vertex_count()},
-                                    {"type", "VEC3"},
-                                    {"min", triple(box.min())},
-                                    {"max", triple(box.max())}},
-                                   {{"bufferView", 1},
-                                    {"componentType", 5125},
-                                    {"count", 3 * mesh.face_count()},
-                                    {"type", "SCALAR"}}});
-  root["bufferViews"] = Json::array(
-      {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", indices_at}, {"target", kVertices}},
-       {{"buffer", 0},
-        {"byteOffset", indices_at},
-        {"byteLength", binary.size() - indices_at},
-        {"target", kIndices}}});
-  root["buffers"] = Json::array({{{"byteLength", binary.size()}}});
-  std::string text = root.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::size_t add_positions(const TriangleMesh& mesh) {
+    const std::size_t start = binary.size();
+    Eigen::AlignedBox3f box;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Eigen::Vector3f position = to_single(mesh, v, "GLB");
+      box.extend(position);
+      for (const float x : position) append_little_endian(binary, x);
+    }
+    const std::size_t accessor = close_view(start, kVertices, kFloat, mesh.vertex_count(), "VEC3");
+    accessors[accessor]["min"] = {box.min()[0], box.min()[1], box.min()[2]};
+    accessors[accessor]["max"] = {box.max()[0], box.max()[1], box.max()[2]};
+    return accessor;
+  }
 
-  const std::size_t size = 12 + 8 + text.size() + 8 + binary.size();
+  std::size_t add_normals(std::span<const Vec3> normals) {
+    const std::size_t start = binary.size();
+    for (const Vec3& n : normals)
+      for (const double x : n) append_little_endian(binary, static_cast<float>(x));
+    return close_view(start, kVertices, kFloat, static_cast<Index>(normals.size()), "VEC3");
+  }
+
+  std::size_t add_faces(const TriangleMesh& mesh) {
+    const std::size_t start = binary.size();
+    for (const Face& face : mesh.faces())
+      for (const Index v : face) append_little_endian(binary, v);
+    return close_view(start, kIndices, kUnsignedInt, 3 * mesh.face_count(), "SCALAR");
+  }
+
+  void add(const GlbPart& part) {
+    Json attributes = {{"POSITION", add_positions(*part.mesh)}};
+    if (!part.normals.empty()) attributes["NORMAL"] = add_normals(part.normals);
+    Json primitive = {{"attributes", attributes}, {"indices", add_faces(*part.mesh)}, {"mode", 4}};
+    if (part.color) {
+      const auto& [r, g, b] = *part.color;
+      materials.push_back({{"pbrMetallicRoughness",
+                            {{"baseColorFactor", {r, g, b, 1.0}},
+                             {"metallicFactor", 0.0},
+                             {"roughnessFactor", 0.8}}}});
+      primitive["material"] = materials.size() - 1;
+    }
+    Json mesh = {{"primitives", Json::array({primitive})}};
+    Json node = {{"mesh", meshes.size()}};
+    if (!part.name.empty()) mesh["name"] = node["name"] = part.name;
+    meshes.push_back(mesh);
+    nodes.push_back(node);
+  }
+
+  std::string text() const {
+    Json numbers = Json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) numbers.push_back(i);
+    Json root;
+    root["asset"] = {{"version", "2.0"}, {"generator", "mimicry"}};
+    root["scene"] = 0;
+    root["scenes"] = Json::array({{{"nodes", numbers}}});
+    root["nodes"] = nodes;
+    root["meshes"] = meshes;
+    if (!materials.empty()) root["materials"] = materials;
+    root["accessors"] = accessors;
+    root["bufferViews"] = views;
+    root["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+    std::string padded = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+    padded.resize((padded.size() + 3) / 4 * 4, ' ');
+    return padded;
+  }
+};
+
+}  // namespace
+
+std::string write_glb_scene(std::span<const GlbPart> parts) {
+  Scene scene;
+  for (const GlbPart& part : parts)
+    if (part.mesh->face_count() > 0) scene.add(part);
+  if (scene.nodes.empty())
+    throw Error(ErrorKind::invalid_input, "mesh: GLB cannot hold a mesh without faces; add one");
+  const std::string text = scene.text();
+  const std::size_t size = 12 + 8 + text.size() + 8 + scene.binary.size();
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::unsupported,
                 "mesh: too large for GLB, which counts bytes with 32 bits; write PLY");
@@ -66,10 +127,15 @@ std::string write_glb(const TriangleMesh& mesh) {
   append_little_endian(out, static_cast<std::uint32_t>(text.size()));
   out += "JSON";
   out += text;
-  append_little_endian(out, static_cast<std::uint32_t>(binary.size()));
+  append_little_endian(out, static_cast<std::uint32_t>(scene.binary.size()));
   out.append("BIN\0", 4);
-  out += binary;
+  out += scene.binary;
   return out;
+}
+
+std::string write_glb(const TriangleMesh& mesh) {
+  const GlbPart part{"", &mesh, {}, {}};
+  return write_glb_scene({&part, 1});
 }
 
 }  // namespace mimicry::io

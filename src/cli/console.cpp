@@ -1,0 +1,49 @@
+#include "cli/console.h"
+
+#include <algorithm>
+
+#include <unistd.h>
+
+namespace mimicry::cli {
+
+void print_table(const std::vector<std::string>& headings,
+                 const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const std::string& h : headings) widths.push_back(h.size());
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  const auto print_row = [&](const std::vector<std::string>& row) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string pad(widths[c] - row[c].size(), ' ');
+      line += (c == 0 ? "" : "  ") + (c == 0 ? row[c] + pad : pad + row[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    std::printf("%s\n", line.c_str());
+  };
+  print_row(headings);
+  for (const auto& row : rows) print_row(row);
+}
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+ProgressLine::ProgressLine(std::string what)
+    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (terminal_ && last_percent_ >= 0) std::fprintf(stderr, "\r\033[K");
+}
+
+void ProgressLine::update(std::size_t done, std::size_t total) {
+  const int percent = total == 0 ? 100 : static_cast<int>(100 * done / total);
+  if (!terminal_ || percent == last_percent_) return;
+  last_percent_ = percent;
+  std::fprintf(stderr, "\r%s %d %%", what_.c_str(), percent);
+  std::fflush(stderr);
+}
+
+}  // namespace mimicry::cli

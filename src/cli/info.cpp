@@ -1,0 +1,173 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/base/error.h>
+#include <mimicry/mesh/validation.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string mesh;
+  bool json = false;
+  bool allow_nonmanifold = false;
+};
+
+Json array_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json optional_json(const std::optional<Index>& value) {
+  return value ? Json(*value) : Json();
+}
+
+template <class Finding>
+Json first_json(const Finding& finding) {
+  return {{"count", finding.count}, {"first", finding.count > 0 ? Json(finding.first) : Json()}};
+}
+
+Json first_json(const EdgeFinding& finding) {
+  return {{"count", finding.count},
+          {"first", finding.count > 0 ? Json{finding.first_tail, finding.first_head} : Json()}};
+}
+
+Json component_json(const ComponentReport& c) {
+  return {{"first_face", c.first_face},
+          {"vertices", c.vertices},
+          {"edges", c.edges},
+          {"faces", c.faces},
+          {"boundary_loops", c.boundary_loops},
+          {"euler", c.euler},
+          {"manifold", c.manifold},
+          {"closed", c.closed},
+          {"orientable", c.orientable},
+          {"genus", optional_json(c.genus)}};
+}
+
+Json report_json(const std::string& name, const MeshReport& r, const std::string& refusal) {
+  Json components = Json::array();
+  for (const ComponentReport& c : r.components) components.push_back(component_json(c));
+  Json duplicate = first_json(r.duplicate_faces);
+  if (r.duplicate_faces.count > 0) duplicate["copy_of"] = r.duplicate_faces.first_copy_of;
+  return {{"name", name},
+          {"vertices", r.vertices},
+          {"edges", r.edges},
+          {"faces", r.faces},
+          {"euler", r.euler},
+          {"genus", optional_json(r.genus)},
+          {"manifold", r.is_manifold()},
+          {"closed", r.is_closed()},
+          {"drawable", refusal.empty()},
+          {"refusal", refusal.empty() ? Json() : Json(refusal)},
+          {"box", r.box.isEmpty() ? Json() : Json{array_of(r.box.min()), array_of(r.box.max())}},
+          {"diagonal", r.diagonal},
+          {"area", r.area},
+          {"volume", r.volume ? Json(*r.volume) : Json()},
+          {"shortest_edge", r.shortest_edge},
+          {"mean_edge", r.mean_edge},
+          {"longest_edge", r.longest_edge},
+          {"invalid_vertices", first_json(r.invalid_vertices)},
+          {"isolated_vertices", first_json(r.isolated_vertices)},
+          {"nonmanifold_edges", first_json(r.nonmanifold_edges)},
+          {"nonmanifold_vertices", first_json(r.nonmanifold_vertices)},
+          {"inconsistent_edges", first_json(r.inconsistent_edges)},
+          {"boundary_loops", r.boundary.loops},
+          {"boundary_edges", first_json(r.boundary.edges)},
+          {"repeated_corners", first_json(r.repeated_corners)},
+          {"degenerate_faces", first_json(r.degenerate_faces)},
+          {"duplicate_faces", duplicate},
+          {"components", components}};
+}
+
+void print_finding(const char* what, Index count, const std::string& first) {
+  if (count > 0)
+    std::printf("  %-34s %d (first: %s)\n", what, count, first.c_str());
+  else
+    std::printf("  %-34s none\n", what);
+}
+
+std::string name_of(const char* kind, Index i) {
+  return std::string(kind) + " " + std::to_string(i);
+}
+
+std::string name_of(const EdgeFinding& e) {
+  return "vertices " + std::to_string(e.first_tail) + "-" + std::to_string(e.first_head);
+}
+
+void print_report(const std::string& name, const MeshReport& r, const std::string& refusal) {
+  std::printf("%s\n", name.c_str());
+  std::printf("  %-34s %d, %d, %d\n", "vertices, edges, faces", r.vertices, r.edges, r.faces);
+  if (!r.box.isEmpty()) {
+    const Vec3 size = r.box.sizes();
+    std::printf("  %-34s %.6g x %.6g x %.6g, diagonal %.6g\n", "size", size.x(), size.y(), size.z(),
+                r.diagonal);
+  }
+  std::printf("  %-34s %.6g", "area", r.area);
+  if (r.volume) std::printf(", volume %.6g", *r.volume);
+  std::printf("\n  %-34s %.6g, %.6g, %.6g\n", "edge length: least, mean, most", r.shortest_edge,
+              r.mean_edge, r.longest_edge);
+  std::printf("  %-34s %zu", "components", r.components.size());
+  if (r.genus) std::printf(", genus %d", *r.genus);
+  std::printf(", Euler characteristic %d\n", r.euler);
+  print_finding("boundary loops", r.boundary.loops,
+                std::to_string(r.boundary.edges.count) + " edges, " + name_of(r.boundary.edges));
+  print_finding("non-manifold edges", r.nonmanifold_edges.count, name_of(r.nonmanifold_edges));
+  print_finding("non-manifold vertices", r.nonmanifold_vertices.count,
+                name_of("vertex", r.nonmanifold_vertices.first));
+  print_finding("edges of inconsistent orientation", r.inconsistent_edges.count,
+                name_of(r.inconsistent_edges));
+  print_finding("faces that name a vertex twice", r.repeated_corners.count,
+                name_of("face", r.repeated_corners.first));
+  print_finding("faces without area", r.degenerate_faces.count,
+                name_of("face", r.degenerate_faces.first));
+  print_finding("duplicate faces", r.duplicate_faces.count,
+                name_of("face", r.duplicate_faces.first) + " repeats " +
+                    std::to_string(r.duplicate_faces.first_copy_of));
+  print_finding("isolated vertices", r.isolated_vertices.count,
+                name_of("vertex", r.isolated_vertices.first));
+  print_finding("vertices that are not finite", r.invalid_vertices.count,
+                name_of("vertex", r.invalid_vertices.first));
+  if (refusal.empty())
+    std::printf("  can be drawn on\n");
+  else
+    std::printf("  cannot be drawn on: %s\n", refusal.c_str());
+}
+
+void run(const Arguments& args, int& status) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const MeshReport report = validate(named.mesh);
+  std::string refusal;
+  try {
+    (void)make_target(named, args.allow_nonmanifold);
+  } catch (const Error& error) {
+    refusal = error.what();
+    status = kBadInput;
+  }
+  if (args.json)
+    std::printf("%s\n", report_json(named.name, report, refusal).dump(2).c_str());
+  else
+    print_report(named.name, report, refusal);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& status) {
+  auto* command = app.add_subcommand("info", "Say what a mesh is, and whether it can be drawn on");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_flag("--json", args->json, "For programs");
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces (closest points and rays work there)");
+  command->callback([args, &status] { run(*args, status); });
+}
+
+}  // namespace mimicry::cli

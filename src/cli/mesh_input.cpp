@@ -1,0 +1,53 @@
+#include "cli/mesh_input.h"
+
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/mesh_reader.h>
+#include <mimicry/mesh/shapes.h>
+
+namespace mimicry::cli {
+namespace {
+
+constexpr std::string_view kShapePrefix = "shape:";
+constexpr double kShownDiagonal_m = 0.6;
+
+NamedMesh load_shape(const std::string& spec) {
+  const std::string rest = spec.substr(kShapePrefix.size());
+  const std::size_t colon = rest.find(':');
+  const std::string name = rest.substr(0, colon);
+  ShapeOptions options;
+  if (colon != std::string::npos) {
+    const std::string digits = rest.substr(colon + 1);
+    const auto [end, fault] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), options.resolution);
+    if (fault != std::errc() || end != digits.data() + digits.size())
+      throw Error(ErrorKind::invalid_input,
+                  spec + ": '" + digits + "' is not a resolution; write shape:torus:48");
+  }
+  TriangleMesh mesh = make_shape(name, options);
+  return {name, std::move(mesh), find_shape(name)->metres_per_unit};
+}
+
+}  // namespace
+
+NamedMesh load_mesh(const std::string& spec) {
+  if (spec.starts_with(kShapePrefix)) return load_shape(spec);
+  const std::string name = std::filesystem::path(spec).filename().string();
+  TriangleMesh mesh = io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name);
+  const double size = diagonal(mesh);
+  return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
+}
+
+spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold) {
+  try {
+    return spatial::Target(named.mesh, {allow_nonmanifold});
+  } catch (const Error& error) {
+    throw Error(error.kind(), named.name + ": " + error.what());
+  }
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/spatial/target.h>
+
+namespace mimicry::cli {
+
+/// How meshes are named on the command line, for help texts.
+inline constexpr const char* kMeshHelp =
+    "a mesh file (.obj .ply .stl .off .glb .gltf) or a built-in shape (shape:NAME[:RESOLUTION])";
+
+struct NamedMesh {
+  std::string name;  ///< the file's name without folders, or the shape's
+  TriangleMesh mesh;
+  double
+      metres_per_unit;  ///< at which it is shown: the shape's own; of a file the diagonal is 0.6 m
+};
+
+/// Throws Error where the file or shape cannot be had.
+NamedMesh load_mesh(const std::string& spec);
+
+/// A target of the mesh; errors name the mesh and, for what --allow-nonmanifold mends, that option.
+spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold);
+
+}  // namespace mimicry::cli

@@ -1,0 +1,300 @@
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/curves.h>
+#include <mimicry/io/curves_glb.h>
+#include <mimicry/io/number.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/render/palette.h>
+#include <mimicry/session/stroke_session.h>
+#include <mimicry/study/polyline.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+using stroke::Stroke;
+using technique::TechniqueInfo;
+
+struct Arguments {
+  std::string mesh;
+  std::string strokes;
+  std::vector<std::string> techniques;
+  std::vector<std::string> options;  // NAME=NUMBER[,NUMBER...]
+  std::string out = "out";
+  std::vector<std::string> formats = {"json", "obj", "csv", "glb", "ply"};
+  std::string misses = "connect";
+  double minimum_motion_mm = 0.0;
+  double tube_radius = 0.0;  // model units; 0: a fraction of the diagonal
+  bool allow_nonmanifold = false;
+  bool json = false;
+};
+
+// What the table says of one technique, over all strokes.
+struct Row {
+  const TechniqueInfo* technique = nullptr;
+  std::size_t frames = 0;
+  std::size_t points = 0;
+  std::size_t missed = 0;
+  double length_m = 0.0;
+  double distance_sum_m = 0.0;  // to the intended curves
+  std::size_t distances = 0;    // strokes that have one
+  double seconds = 0.0;
+};
+
+std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
+  std::vector<const TechniqueInfo*> chosen;
+  for (const std::string& name : names)
+    if (name != "all") chosen.push_back(&technique::find_technique(name));
+  if (chosen.empty())
+    for (const TechniqueInfo& info : technique::techniques()) chosen.push_back(&info);
+  return chosen;
+}
+
+struct OptionValue {
+  std::string name;
+  std::vector<double> values;
+};
+
+OptionValue parse_option(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  OptionValue option{text.substr(0, equals), {}};
+  std::string rest = equals == std::string::npos ? "" : text.substr(equals + 1);
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(',');
+    const auto value = io::parse_double(rest.substr(0, comma));
+    if (!value) break;
+    option.values.push_back(*value);
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+  }
+  if (option.values.empty() || !rest.empty())
+    throw Error(ErrorKind::invalid_input,
+                "--option " + text + ": write NAME=NUMBER or NAME=NUMBER,NUMBER,NUMBER");
+  return option;
+}
+
+// Options go to the chosen techniques that have them; one that none has is an error.
+technique::Options options_for(const TechniqueInfo& info, const std::vector<OptionValue>& given) {
+  technique::Options options;
+  for (const OptionValue& option : given)
+    for (const technique::OptionInfo& known : info.options)
+      if (known.name == option.name)
+        technique::set_option(info, options, option.name, option.values);
+  return options;
+}
+
+void require_known(const std::vector<OptionValue>& given,
+                   const std::vector<const TechniqueInfo*>& chosen) {
+  for (const OptionValue& option : given) {
+    bool known = false;
+    for (const TechniqueInfo* info : chosen)
+      for (const technique::OptionInfo& o : info->options) known = known || o.name == option.name;
+    if (!known)
+      throw Error(ErrorKind::invalid_input, "--option " + option.name +
+                                                ": none of the chosen techniques has it; "
+                                                "see mimicry techniques");
+  }
+}
+
+std::vector<Vec3> world_points(const std::vector<std::vector<Vec3>>& parts,
+                               const Similarity& placed) {
+  std::vector<Vec3> points;
+  for (const auto& part : parts)
+    for (const Vec3& x : part) points.push_back(placed.point(x));
+  return points;
+}
+
+void require_on_mesh(const Stroke& stroke, const NamedMesh& named) {
+  if (!stroke.intended) return;
+  for (const SurfacePoint& p : stroke.intended->points)
+    if (p.face >= named.mesh.face_count())
+      throw Error(ErrorKind::invalid_input,
+                  "stroke '" + stroke.id + "': its intended curve names face " +
+                      std::to_string(p.face) + ", but " + named.name + " has " +
+                      std::to_string(named.mesh.face_count()) +
+                      " faces; give the mesh that the stroke was made for");
+}
+
+std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh& mesh) {
+  std::vector<Vec3> points;
+  for (const SurfacePoint& p : stroke.intended->points)
+    points.push_back(stroke.model_to_world.point(mesh.position(p)));
+  return points;
+}
+
+io::CurveRecord draw(const spatial::Target& target, const TechniqueInfo& info, const Stroke& stroke,
+                     const session::SessionOptions& options, Row& row) {
+  session::SessionOptions sized = options;
+  sized.expected_frames = stroke.frames.size();
+  session::StrokeSession session({&target}, info, sized);
+  const auto start = std::chrono::steady_clock::now();
+  session.begin(stroke.model_to_world);
+  for (const stroke::Frame& frame : stroke.frames) session.add(frame);
+  session.end();
+  row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const curve::ProjectedCurve& curve = session.curve();
+  row.frames += stroke.frames.size();
+  row.points += curve.points.size();
+  row.missed += static_cast<std::size_t>(session.counts()[session::FrameStatus::missed]);
+  row.length_m += stroke.model_to_world.scale * curve::length(curve);
+  if (stroke.intended && !stroke.intended->points.empty() && !curve.points.empty()) {
+    row.distance_sum_m += study::mean_corresponding_distance(
+        world_points(curve::polylines(curve, target.mesh()), stroke.model_to_world),
+        intended_world_points(stroke, target.mesh()));
+    ++row.distances;
+  }
+  io::CurveRecord record;
+  record.stroke = stroke.id;
+  record.technique = std::string(info.name);
+  for (const technique::OptionInfo& o : info.options) {
+    const auto values = o.get(options.technique);
+    record.options[std::string(o.name)] = {values.begin(), values.end()};
+  }
+  record.model_to_world = stroke.model_to_world;
+  record.curve = curve;
+  return record;
+}
+
+std::array<unsigned char, 3> color_of(const std::string& technique) {
+  const render::Color c = render::technique_color(technique);
+  const auto byte = [](double x) { return static_cast<unsigned char>(x * 255.0 + 0.5); };
+  return {byte(c.r), byte(c.g), byte(c.b)};
+}
+
+std::string file_bytes(const std::string& format, const io::CurveSet& set, const TriangleMesh& mesh,
+                       double tube_radius) {
+  std::vector<std::array<unsigned char, 3>> colors;
+  for (const io::CurveRecord& record : set.curves) colors.push_back(color_of(record.technique));
+  if (format == "json") return io::write_curves_json(set, mesh);
+  if (format == "obj") return io::write_curves_obj(set, mesh);
+  if (format == "csv") return io::write_curves_csv(set, mesh);
+  if (format == "glb") return io::write_curves_glb(set, mesh, colors, tube_radius);
+  return io::write_curves_ply(set, mesh, colors);
+}
+
+void print_rows(const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> cells;
+  for (const Row& row : rows)
+    cells.push_back(
+        {std::string(row.technique->name), std::to_string(row.points), std::to_string(row.missed),
+         fixed(100.0 * row.length_m, 1),
+         row.distances > 0 ? fixed(1e3 * row.distance_sum_m / double(row.distances), 1) : "-",
+         row.frames > 0 ? fixed(1e6 * row.seconds / double(row.frames), 2) : "-"});
+  print_table({"technique", "points", "missed", "length cm", "off the intended curve mm",
+               "microseconds a point"},
+              cells);
+}
+
+void print_json(const std::vector<Row>& rows, const std::vector<std::string>& files) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : rows) {
+    nlohmann::ordered_json entry = {{"technique", row.technique->name},
+                                    {"frames", row.frames},
+                                    {"points", row.points},
+                                    {"missed", row.missed},
+                                    {"length_m", row.length_m}};
+    entry["mean_distance_to_intended_m"] =
+        row.distances > 0 ? nlohmann::ordered_json(row.distance_sum_m / double(row.distances))
+                          : nlohmann::ordered_json();
+    entry["seconds_per_point"] = row.frames > 0
+                                     ? nlohmann::ordered_json(row.seconds / double(row.frames))
+                                     : nlohmann::ordered_json();
+    list.push_back(entry);
+  }
+  std::printf("%s\n",
+              nlohmann::ordered_json{{"techniques", list}, {"files", files}}.dump(2).c_str());
+}
+
+void run(const Arguments& args) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const std::string strokes_name = std::filesystem::path(args.strokes).filename().string();
+  const std::vector<Stroke> strokes =
+      io::read_strokes(files::read_file(args.strokes), strokes_name);
+  for (const Stroke& stroke : strokes) require_on_mesh(stroke, named);
+  const auto chosen = chosen_techniques(args.techniques);
+  std::vector<OptionValue> given;
+  for (const std::string& text : args.options) given.push_back(parse_option(text));
+  require_known(given, chosen);
+
+  session::SessionOptions options;
+  options.misses =
+      args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
+  options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
+
+  io::CurveSet set{named.name, {}};
+  std::vector<Row> rows;
+  {
+    ProgressLine progress("projecting");
+    for (const TechniqueInfo* info : chosen) {
+      options.technique = options_for(*info, given);
+      rows.push_back({.technique = info});
+      for (const Stroke& stroke : strokes) {
+        set.curves.push_back(draw(target, *info, stroke, options, rows.back()));
+        progress.update(set.curves.size(), chosen.size() * strokes.size());
+      }
+    }
+  }
+
+  const std::filesystem::path folder(args.out);
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (trouble)
+    throw Error(ErrorKind::io, args.out + ": the folder cannot be made: " + trouble.message());
+  const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
+  std::vector<std::string> written;
+  for (const std::string& format : args.formats) {
+    written.push_back((folder / ("curves." + format)).string());
+    files::write_file_atomically(written.back(), file_bytes(format, set, named.mesh, radius));
+  }
+  if (args.json) return print_json(rows, written);
+  print_rows(rows);
+  for (const std::string& file : written) std::printf("%s\n", file.c_str());
+}
+
+}  // namespace
+
+void add_project(CLI::App& app, int&) {
+  auto* command = app.add_subcommand("project", "Project recorded strokes on a mesh");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_option("strokes", args->strokes, "A mimicry-strokes file")->required();
+  command->add_option("-t,--techniques", args->techniques, "Names, or all (mimicry techniques)")
+      ->delimiter(',');
+  command->add_option("--option", args->options,
+                      "A technique's option, NAME=NUMBER[,NUMBER,NUMBER]");
+  command->add_option("-o,--out", args->out, "Folder for the curve files")->capture_default_str();
+  command->add_option("--formats", args->formats, "Which files")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"json", "obj", "csv", "glb", "ply"}))
+      ->capture_default_str();
+  command->add_option("--misses", args->misses, "Where a point is undefined: connect or split")
+      ->check(CLI::IsMember({"connect", "split"}))
+      ->capture_default_str();
+  command
+      ->add_option("--minimum-motion-mm", args->minimum_motion_mm,
+                   "Pass over frames whose pen moved less")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--tube-radius", args->tube_radius,
+                   "Of the tubes in the GLB file, mesh units (default 0.3 % of the diagonal)")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces");
+  command->add_flag("--json", args->json, "The table for programs");
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli

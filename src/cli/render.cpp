@@ -1,0 +1,196 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/curves.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/render/figure.h>
+#include <mimicry/render/palette.h>
+#include <mimicry/render/png.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string strokes;
+  std::string curves;
+  std::string out = "out/picture.png";
+  std::vector<std::string> techniques;
+  std::string stroke;  // only this one
+  bool side_by_side = false;
+  bool intended = false;
+  std::optional<double> azimuth;
+  std::optional<double> elevation;
+  double zoom = 1.0;
+  double tube_radius = 0.0;
+  int columns = 0;
+  int width = 0;
+  int height = 0;
+};
+
+constexpr render::Color kIntendedColor{0.98, 0.98, 0.94};
+
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+// Strokes are shown where they were drawn, in the mesh's coordinates.
+render::Tube stroke_tube(const stroke::Stroke& stroke, double radius) {
+  render::Tube tube;
+  for (const stroke::Frame& frame : stroke.frames)
+    tube.points.push_back(stroke.model_to_world.inverse_point(frame.controller.position));
+  tube.radius = 0.6 * radius;
+  tube.color = render::kStrokeColor;
+  tube.label = "stroke in mid-air";
+  tube.camera_weight = 0.3;
+  return tube;
+}
+
+render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh& mesh,
+                           double radius) {
+  render::Tube tube;
+  for (const SurfacePoint& p : intended.points) {
+    if (p.face >= mesh.face_count())
+      throw Error(ErrorKind::invalid_input, "intended curve '" + intended.name + "': names face " +
+                                                std::to_string(p.face) + ", beyond the mesh");
+    tube.points.push_back(mesh.position(p));
+  }
+  tube.radius = 1.4 * radius;
+  tube.color = kIntendedColor;
+  tube.label = "intended";
+  return tube;
+}
+
+void add_curve(render::Scene& scene, const io::CurveRecord& record, const TriangleMesh& mesh,
+               double radius) {
+  for (auto& part : curve::polylines(record.curve, mesh)) {
+    render::Tube tube;
+    tube.points = std::move(part);
+    tube.radius = radius;
+    tube.color = render::technique_color(record.technique);
+    tube.label = record.technique;
+    scene.tubes.push_back(std::move(tube));
+  }
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  for (const std::string& n : names)
+    if (n == name) return true;
+  return false;
+}
+
+// One panel for each technique, in the order of the curve file.
+std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveSet& set,
+                                     const TriangleMesh& mesh, double radius) {
+  std::vector<render::Scene> panels;
+  for (const io::CurveRecord& record : set.curves) {
+    render::Scene* panel = nullptr;
+    for (render::Scene& p : panels)
+      if (p.caption == record.technique) panel = &p;
+    if (panel == nullptr) {
+      panels.push_back(base);
+      panel = &panels.back();
+      panel->caption = record.technique;
+      panel->caption_color = render::technique_color(record.technique);
+      panel->caption_swatch = true;
+    }
+    add_curve(*panel, record, mesh, radius);
+  }
+  return panels;
+}
+
+void run(const Arguments& args) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const double size = diagonal(named.mesh);
+  const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
+  render::Scene scene;
+  scene.surfaces.push_back({.mesh = &named.mesh});
+  std::vector<stroke::Stroke> strokes;
+  if (!args.strokes.empty())
+    strokes = io::read_strokes(files::read_file(args.strokes), name_of(args.strokes));
+  for (const stroke::Stroke& stroke : strokes) {
+    if (!args.stroke.empty() && stroke.id != args.stroke) continue;
+    scene.tubes.push_back(stroke_tube(stroke, radius));
+    if (args.intended && stroke.intended)
+      scene.tubes.push_back(intended_tube(*stroke.intended, named.mesh, radius));
+  }
+  io::CurveSet set;
+  if (!args.curves.empty())
+    set = io::read_curves_json(files::read_file(args.curves), name_of(args.curves), named.mesh);
+  std::erase_if(set.curves, [&](const io::CurveRecord& record) {
+    return (!args.stroke.empty() && record.stroke != args.stroke) ||
+           (!args.techniques.empty() && !contains(args.techniques, record.technique));
+  });
+
+  render::CameraOptions camera;
+  camera.azimuth_deg = args.azimuth;
+  camera.elevation_deg = args.elevation;
+  camera.zoom = args.zoom;
+  render::Image image;
+  if (args.side_by_side) {
+    const auto panels = panels_of(scene, set, named.mesh, radius);
+    if (panels.empty())
+      throw Error(ErrorKind::invalid_input,
+                  "render: --side-by-side has nothing to show; give --curves a file with curves");
+    render::FigureOptions options;
+    options.columns = args.columns;
+    if (args.width > 0) options.panel.width = args.width;
+    if (args.height > 0) options.panel.height = args.height;
+    image = render::figure(panels, camera, options);
+  } else {
+    for (const io::CurveRecord& record : set.curves) add_curve(scene, record, named.mesh, radius);
+    render::RenderOptions options;
+    if (args.width > 0) options.width = args.width;
+    if (args.height > 0) options.height = args.height;
+    image = render::picture(scene, camera, options);
+  }
+  const std::filesystem::path folder = std::filesystem::path(args.out).parent_path();
+  std::error_code trouble;
+  if (!folder.empty()) std::filesystem::create_directories(folder, trouble);
+  files::write_file_atomically(args.out, render::write_png(image));
+  std::printf("%s\n", args.out.c_str());
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int&) {
+  auto* command = app.add_subcommand("render", "Make a picture of a mesh, strokes and curves");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_option("--strokes", args->strokes, "A mimicry-strokes file, drawn in black");
+  command->add_option("--curves", args->curves, "A mimicry-curves file, one colour a technique");
+  command->add_option("-t,--techniques", args->techniques, "Only curves of these")->delimiter(',');
+  command->add_option("--stroke", args->stroke, "Only the stroke of this id");
+  command->add_flag("--intended", args->intended,
+                    "Show the strokes' intended curves too, in white");
+  command->add_option("-o,--out", args->out, "The PNG file")->capture_default_str();
+  command->add_flag("--side-by-side", args->side_by_side,
+                    "A panel for each technique, with captions");
+  command->add_option("--columns", args->columns, "Panels in a row, 0: chosen")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option(
+      "--azimuth", args->azimuth,
+      "Where the viewer stands, degrees; 0 is +z, 90 is +x (default: sees the curves)");
+  command->add_option("--elevation", args->elevation, "Degrees above the horizon");
+  command->add_option("--zoom", args->zoom, "2 shows the middle twice as large")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--tube-radius", args->tube_radius,
+                   "Of curves, mesh units (default 0.4 % of the diagonal)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--width", args->width, "Pixels, of a panel where there are several");
+  command->add_option("--height", args->height, "Pixels");
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,163 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/io/targets_reader.h>
+#include <mimicry/mesh/shapes.h>
+#include <mimicry/session/stroke_session.h>
+#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/simulate.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string shape;
+  std::string targets;
+  std::string out;
+  std::vector<std::string> curves;
+  std::string closed_loop;  // technique whose ink is seen
+  int count = 1;
+  std::uint64_t seed = 1;
+  double rate_hz = 90.0;
+  double distance_m = 0.048;
+  double scale = 0.0;  // metres per mesh unit
+};
+
+struct Task {
+  std::vector<stroke::Intention> curves;
+  double metres_per_unit;
+};
+
+Task published_curves(const Arguments& args, const NamedMesh& named) {
+  const std::string file = std::filesystem::path(args.targets).filename().string();
+  const study::TargetSet set = io::read_targets(files::read_file(args.targets), file);
+  const std::string wanted =
+      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
+  const study::TargetShape* shape = set.find(wanted);
+  if (shape == nullptr) {
+    std::string names;
+    for (const auto& s : set.shapes) names += (names.empty() ? "" : ", ") + s.name;
+    throw Error(ErrorKind::invalid_input, file + ": has no shape '" + wanted + "', only " + names +
+                                              "; name one with --shape");
+  }
+  Task task{{}, shape->scale};
+  for (std::size_t i = 0; i < shape->curves.size(); ++i)
+    task.curves.push_back({wanted + "-" + std::to_string(i), false, shape->curves[i].points});
+  return task;
+}
+
+Task task_of(const Arguments& args, const NamedMesh& named, const spatial::Target& target) {
+  if (!args.targets.empty()) return published_curves(args, named);
+  const std::string shape = args.shape.empty() ? named.name : args.shape;
+  const ShapeInfo* info = find_shape(shape);
+  if (info == nullptr)
+    throw Error(ErrorKind::invalid_input,
+                named.name +
+                    ": there are no intended curves for it; give --targets FILE with target "
+                    "curves, or --shape NAME if it is a built-in shape");
+  return {study::intended_curves(shape, target), info->metres_per_unit};
+}
+
+// Upright, its middle 1.2 m above the floor.
+Similarity placement(const spatial::Target& target, double metres_per_unit) {
+  Similarity placed;
+  placed.scale = metres_per_unit;
+  placed.translation = Vec3(0.0, 1.2, 0.0) - metres_per_unit * target.bounding_box().center();
+  return placed;
+}
+
+stroke::Stroke make_stroke(const spatial::Target& target, const stroke::Intention& intended,
+                           const Similarity& placed, const study::SimulationOptions& options,
+                           std::uint64_t seed, const std::string& technique) {
+  if (technique.empty()) return study::simulate(target, intended, placed, options, seed);
+  session::StrokeSession session({&target}, technique::find_technique(technique));
+  session.begin(placed);
+  return study::simulate_closed_loop(target, intended, placed, options, seed,
+                                     [&](const stroke::Frame& frame) -> std::optional<Vec3> {
+                                       if (session.add(frame) != session::FrameStatus::inked)
+                                         return std::nullopt;
+                                       return placed.point(session.curve().points.back().position);
+                                     });
+}
+
+bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) {
+  if (chosen.empty()) return true;
+  for (const std::string& c : chosen)
+    if (c == name) return true;
+  return false;
+}
+
+void run(const Arguments& args) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, false);
+  const Task task = task_of(args, named, target);
+  const double scale = args.scale > 0.0 ? args.scale : task.metres_per_unit;
+  const Similarity placed = placement(target, scale);
+  study::SimulationOptions options;
+  options.rate_hz = args.rate_hz;
+  options.mean_distance_m = args.distance_m;
+
+  std::vector<stroke::Stroke> strokes;
+  ProgressLine progress("drawing");
+  const auto total = task.curves.size() * static_cast<std::size_t>(args.count);
+  for (std::size_t c = 0; c < task.curves.size(); ++c) {
+    if (!is_chosen(args.curves, task.curves[c].name)) continue;
+    for (int k = 0; k < args.count; ++k) {
+      // A curve's strokes stay the same when others are left out.
+      const std::uint64_t seed = args.seed + 1000 * c + static_cast<std::uint64_t>(k);
+      strokes.push_back(
+          make_stroke(target, task.curves[c], placed, options, seed, args.closed_loop));
+      strokes.back().target = named.name;
+      if (args.count > 1) strokes.back().id += "#" + std::to_string(k);
+      progress.update(strokes.size(), total);
+    }
+  }
+  if (strokes.empty()) {
+    std::string names;
+    for (const auto& curve : task.curves) names += (names.empty() ? "" : ", ") + curve.name;
+    throw Error(ErrorKind::invalid_input, "simulate: no such curve; there are " + names);
+  }
+  files::write_file_atomically(args.out, io::write_strokes(strokes));
+  std::size_t frames = 0;
+  for (const auto& stroke : strokes) frames += stroke.frames.size();
+  std::printf("%s: %zu strokes, %zu frames\n", args.out.c_str(), strokes.size(), frames);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int&) {
+  auto* command = app.add_subcommand(
+      "simulate", "Make mid-air strokes as a person would who means given curves");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_option("--shape", args->shape,
+                      "Whose intended curves: of a built-in shape, or a name in --targets");
+  command->add_option("--targets", args->targets, "A file of target curves on the mesh");
+  command->add_option("-o,--out", args->out, "The mimicry-strokes file to write")->required();
+  command->add_option("--curves", args->curves, "Only these intended curves")->delimiter(',');
+  command->add_option("--count", args->count, "Strokes for each curve")
+      ->check(CLI::Range(1, 999))
+      ->capture_default_str();
+  command->add_option("--seed", args->seed, "Of all that is random")->capture_default_str();
+  command->add_option("--rate", args->rate_hz, "Frames a second")->capture_default_str();
+  command->add_option("--distance", args->distance_m, "Mean distance from hand to surface, metres")
+      ->capture_default_str();
+  command->add_option("--closed-loop", args->closed_loop,
+                      "The person sees this technique's ink and corrects the visible error");
+  command->add_option("--scale", args->scale, "Metres per mesh unit (default: the shape's own)")
+      ->check(CLI::PositiveNumber);
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,58 @@
+#include <cstdio>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/technique/technique.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+
+namespace mimicry::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const technique::TechniqueInfo& info) {
+  const technique::Options defaults;
+  Json options = Json::array();
+  for (const technique::OptionInfo& o : info.options) {
+    const auto values = o.get(defaults);
+    options.push_back({{"name", o.name},
+                       {"unit", o.unit},
+                       {"description", o.description},
+                       {"default", std::vector<double>(values.begin(), values.end())},
+                       {"lowest", o.lowest},
+                       {"highest", o.highest}});
+  }
+  return {{"name", info.name},         {"description", info.description}, {"paper", info.source},
+          {"anchored", info.anchored}, {"needs_bake", info.needs_bake},   {"options", options}};
+}
+
+void print_text() {
+  std::vector<std::vector<std::string>> rows;
+  for (const technique::TechniqueInfo& info : technique::techniques()) {
+    std::string options;
+    for (const technique::OptionInfo& o : info.options)
+      options += (options.empty() ? "" : " ") + std::string(o.name);
+    rows.push_back({std::string(info.name), info.needs_bake ? "yes" : "no",
+                    options.empty() ? "-" : options, "  " + std::string(info.description)});
+  }
+  print_table({"technique", "bake", "options", ""}, rows);
+}
+
+}  // namespace
+
+void add_techniques(CLI::App& app, int&) {
+  auto* command = app.add_subcommand("techniques", "List the techniques and their options");
+  auto* json = command->add_flag("--json", "For programs");
+  command->callback([json] {
+    if (json->count() == 0) return print_text();
+    Json list = Json::array();
+    for (const technique::TechniqueInfo& info : technique::techniques())
+      list.push_back(to_json(info));
+    std::printf("%s\n", list.dump(2).c_str());
+  });
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::io {
+
+/// One node of a GLB scene.
+struct GlbPart {
+  std::string name;
+  const TriangleMesh* mesh = nullptr;
+  std::span<const Vec3> normals;               ///< #V unit normals, or empty
+  std::optional<std::array<double, 3>> color;  ///< linear, 0 to 1; without one no material
+};
+
+/// A binary glTF 2.0 file with a node for each part that has faces. Throws as `write_mesh` does.
+std::string write_glb_scene(std::span<const GlbPart> parts);
+
+}  // namespace mimicry::io
