@@ -108,8 +108,9 @@ std::vector<Guide> trefoil_guides() {
        [](double u) { return trefoil_point(0.4 + 0.12 * std::sin(2 * kTau * u), kTau * u); }},
       {"winding", false, [](double u) { return trefoil_point(0.9 + 1.1 * u, 1.75 * kTau * u); }},
       // The bend is tightest where the parameter is 1.4514.
-      {"across", false,
-       [](double u) { return trefoil_point(1.05 + 0.8 * u, 0.6 * std::sin(kTau * u)); }}};
+      {"across", false, [](double u) {
+         return trefoil_point(1.05 + 0.8 * u, kTau / 2 + 0.6 * std::sin(kTau * u));
+       }}};
 }
 
 std::vector<Guide> hand_guides() {
@@ -201,7 +202,7 @@ std::vector<Guide> guides(std::string_view shape) {
 
 stroke::Intention mapped(const Guide& guide, const spatial::Target& target) {
   // Much denser than the result, so that the result can be chosen by length on the surface.
-  constexpr int kSamples = 4096;
+  constexpr int kSamples = 2048;
   const double spacing = 0.005 * target.diagonal();
   stroke::Intention curve{guide.name, guide.closed, {}};
   Vec3 previous = Vec3::Zero();

@@ -14,7 +14,7 @@ namespace mimicry::study {
 /// shape at any resolution (noisy-cube, with any noise: the curves of the plain cube, moved with
 /// its faces). Points about 0.5 % of the diagonal apart, in the order of drawing; a closed curve
 /// ends in its first point. Throws Error(invalid_input) for an unknown shape, and for "noisy-cube"
-/// where the target has not the faces of one. About 20 ms a shape.
+/// where the target has not the faces of one. About 5 ms a curve.
 std::vector<stroke::Intention> intended_curves(std::string_view shape,
                                                const spatial::Target& target);
 
