@@ -34,16 +34,13 @@ void check(const CameraOptions& options) {
   };
   refuse_unless(!options.azimuth_deg || std::isfinite(*options.azimuth_deg),
                 "camera: the azimuth must be finite");
-  refuse_unless(!options.elevation_deg || std::abs(*options.elevation_deg) <= 90.0,
+  refuse_unless(!options.elevation_deg || within(*options.elevation_deg, -90.0, 90.0),
                 "camera: the elevation must lie in -90..90 degrees");
-  refuse_unless(options.zoom > 0.0 && std::isfinite(options.zoom),
-                "camera: the zoom must be positive and finite");
-  refuse_unless(options.field_of_view_deg >= 1.0 && options.field_of_view_deg <= 120.0,
+  refuse_unless(positive(options.zoom), "camera: the zoom must be positive and finite");
+  refuse_unless(within(options.field_of_view_deg, 1.0, 120.0),
                 "camera: the field of view must lie in 1..120 degrees");
-  refuse_unless(options.margin >= 0.0 && options.margin <= 0.4,
-                "camera: the margin must lie in 0..0.4");
-  refuse_unless(options.aspect > 0.01 && options.aspect < 100.0,
-                "camera: the aspect must lie in 0.01..100");
+  refuse_unless(within(options.margin, 0.0, 0.4), "camera: the margin must lie in 0..0.4");
+  refuse_unless(within(options.aspect, 0.01, 100.0), "camera: the aspect must lie in 0.01..100");
 }
 
 struct Sample {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include <mimicry/base/error.h>
@@ -9,6 +10,21 @@ namespace mimicry::render {
 
 [[noreturn]] inline void refuse(const std::string& message) {
   throw Error(ErrorKind::invalid_input, message);
+}
+
+// Finiteness comes first in checks: to compare a NaN, or to subtract infinities as allFinite does,
+// is an invalid operation, which traps where traps are on.
+
+inline bool finite(const Vec3& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+inline bool within(double value, double low, double high) {
+  return std::isfinite(value) && value >= low && value <= high;
+}
+
+inline bool positive(double value) {
+  return std::isfinite(value) && value > 0.0;
 }
 
 /// "tube 3 (snap)", for messages.

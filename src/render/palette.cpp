@@ -12,7 +12,7 @@ constexpr Color hex(unsigned rgb) {
 constexpr std::array kColors = {
     PaletteEntry{"occlude", hex(0x576aff)},
     PaletteEntry{"spraycan", hex(0xd55e00)},
-    PaletteEntry{"head-centric", hex(0xae8e4f)},
+    PaletteEntry{"head-centric", hex(0x7d6f3c)},
     PaletteEntry{"snap", hex(0xcaa2ff)},
     PaletteEntry{"snap-smooth", hex(0x442567)},
     PaletteEntry{"anchored-closest", hex(0xe69f00)},
@@ -21,7 +21,7 @@ constexpr std::array kColors = {
     PaletteEntry{"mimicry-offset", hex(0x00788d)},
     PaletteEntry{"mimicry-parallel", hex(0x165e3c)},
     PaletteEntry{"anchored-ray-plane", hex(0x95c86c)},
-    PaletteEntry{"anchored-ray-transport", hex(0x8d3a05)},
+    PaletteEntry{"anchored-ray-transport", hex(0x7a2800)},
     PaletteEntry{"mimicry-live", hex(0x009e73)},
 };
 

@@ -52,7 +52,7 @@ RayScene::RayScene(const Scene& scene) {
   const Eigen::AlignedBox3d box = bounds(scene);
   center_ = 0.5 * (box.min() + box.max());
   const double diagonal = (box.max() - box.min()).norm();
-  if (!(diagonal > 0.0) || !std::isfinite(1.0 / diagonal) || !std::isfinite(diagonal)) {
+  if (!positive(diagonal) || !std::isfinite(1.0 / diagonal)) {
     refuse("scene: all points coincide or are too far apart; its size must be a positive number");
   }
   scale_ = 1.0 / diagonal;
@@ -103,7 +103,7 @@ void RayScene::add(const Surface& surface, std::uint32_t number) {
   if (vertices == nullptr || faces == nullptr) throw std::bad_alloc();
   for (const Vec3& p : mesh.positions()) {
     // Only vertices without a face may be non-finite here; they are never read.
-    const Vec3f q = p.allFinite() ? to_unit(p) : Vec3f::Zero();
+    const Vec3f q = finite(p) ? to_unit(p) : Vec3f::Zero();
     vertices = std::copy_n(q.data(), 3, vertices);
   }
   for (const Face& face : mesh.faces()) {

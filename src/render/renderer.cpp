@@ -41,27 +41,26 @@ std::uint8_t to_byte(float linear) {
 }
 
 void check(const Camera& camera) {
-  if (!camera.eye.allFinite() || !camera.right.allFinite() || !camera.up.allFinite() ||
-      !camera.forward.allFinite() || !(camera.tan_half_height > 0.0) ||
-      !std::isfinite(camera.tan_half_height)) {
+  if (!finite(camera.eye) || !finite(camera.right) || !finite(camera.up) ||
+      !finite(camera.forward) || !positive(camera.tan_half_height)) {
     refuse("camera: position, axes and field of view must be finite");
   }
 }
 
 void check(const RenderOptions& options) {
-  const auto within = [](double value, double low, double high, const char* name) {
-    if (value >= low && value <= high) return;
+  const auto require = [](double value, double low, double high, const char* name) {
+    if (within(value, low, high)) return;
     refuse(std::string("picture: ") + name + " is " + std::to_string(value) + "; it must lie in " +
            std::to_string(low) + " to " + std::to_string(high));
   };
-  within(options.width, 1, 16384, "the width");
-  within(options.height, 1, 16384, "the height");
-  within(options.samples, 1, 1024, "the number of samples");
-  within(options.ao_samples, 0, 64, "the number of occlusion samples");
-  within(options.threads, 0, 1024, "the number of threads");
-  within(options.ground, 0.0, 1.0, "the darkness of the ground");
-  within(options.ghost, 0.0, 1.0, "the opacity of hidden tubes");
-  within(options.crease_deg, 0.0, 180.0, "the crease angle");
+  require(options.width, 1, 16384, "the width");
+  require(options.height, 1, 16384, "the height");
+  require(options.samples, 1, 1024, "the number of samples");
+  require(options.ao_samples, 0, 64, "the number of occlusion samples");
+  require(options.threads, 0, 1024, "the number of threads");
+  require(options.ground, 0.0, 1.0, "the darkness of the ground");
+  require(options.ghost, 0.0, 1.0, "the opacity of hidden tubes");
+  require(options.crease_deg, 0.0, 180.0, "the crease angle");
 }
 
 class Renderer {

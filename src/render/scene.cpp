@@ -12,7 +12,7 @@ void check(const Surface& surface, const std::string& name) {
   const TriangleMesh& mesh = *surface.mesh;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     for (const Index v : mesh.face(f)) {
-      if (!mesh.position(v).allFinite()) {
+      if (!finite(mesh.position(v))) {
         refuse(name + ": vertex " + std::to_string(v) + " of face " + std::to_string(f) +
                " is not finite; repair the mesh");
       }
@@ -28,20 +28,20 @@ void check(const Surface& surface, const std::string& name) {
       refuse(name + ": iso value of vertex " + std::to_string(v) + " is not finite");
     }
   }
-  if (!(surface.iso_spacing > 0.0) || !std::isfinite(surface.iso_spacing)) {
+  if (!positive(surface.iso_spacing)) {
     refuse(name + ": iso spacing must be positive and finite");
   }
 }
 
 void check(const Tube& tube, const std::string& name) {
-  if (!(tube.radius > 0.0) || !std::isfinite(tube.radius)) {
+  if (!positive(tube.radius)) {
     refuse(name + ": the radius must be positive and finite");
   }
-  if (!(tube.camera_weight >= 0.0) || !std::isfinite(tube.camera_weight)) {
+  if (!std::isfinite(tube.camera_weight) || tube.camera_weight < 0.0) {
     refuse(name + ": the camera weight must be finite and not negative");
   }
   for (std::size_t i = 0; i < tube.points.size(); ++i) {
-    if (!tube.points[i].allFinite()) {
+    if (!finite(tube.points[i])) {
       refuse(name + ": point " + std::to_string(i) + " is not finite; leave misses out");
     }
   }
@@ -55,7 +55,8 @@ std::string tube_name(const Scene& scene, std::size_t t) {
 }
 
 void check(const Scene& scene) {
-  if (!(std::abs(scene.up.norm() - 1.0) < 1e-6)) refuse("scene: up must be a unit vector");
+  if (!finite(scene.up) || std::abs(scene.up.norm() - 1.0) > 1e-6)
+    refuse("scene: up must be a unit vector");
   bool anything = false;
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     check(scene.surfaces[s], "surface " + std::to_string(s));
