@@ -55,9 +55,10 @@ TEST(Number, ReadsWhatStrtodReads) {
   };
   for (int n = 0; n < 100'000; ++n) {
     std::string text = random() % 2 ? "-" : "";
-    text += "1" + digits(n % 10 ? 25 : 1000);
-    if (random() % 2) text += "." + digits(25);
-    if (random() % 2) text += "e" + std::string(random() % 2 ? "-" : "") + digits(2);
+    text += '1';
+    text += digits(n % 10 ? 25 : 1000);
+    if (random() % 2) text.append(1, '.').append(digits(25));
+    if (random() % 2) text.append(random() % 2 ? "e-" : "e").append(digits(2));
     if (text.back() == 'e' || text.back() == '-') text += '0';
     const auto value = parse_double(text);
     ASSERT_TRUE(value) << text;
