@@ -73,12 +73,12 @@ void check_manifold(const HalfEdges& edges, Index vertices) {
            std::to_string(first_vertex) + ")" + remedy);
 }
 
-// Unit length; zero where there is no direction. Very short and very long ones neither vanish nor
-// overflow.
+// Unit length; zero where there is no direction.
 Vec3 unit(const Vec3& direction) {
   const double largest = direction.cwiseAbs().maxCoeff();
   if (!direction.allFinite() || !(largest > 0.0)) return Vec3::Zero();
-  const Vec3 scaled = direction / largest;
+  if (largest > 1e-100 && largest < 1e100) return direction / direction.norm();
+  const Vec3 scaled = direction / largest;  // squares neither vanish nor overflow
   return scaled / scaled.norm();
 }
 

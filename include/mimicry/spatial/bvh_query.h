@@ -163,24 +163,29 @@ template <class Visit>
 void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction, double bound,
                                     Visit&& visit) const {
   if (slots_.empty()) return;
-  // The boxes are met from where the ray enters the content's cube, so that floats serve from any
-  // distance.
-  const Point far_origin = inside(origin);
-  const double size = far_origin.cwiseAbs().maxCoeff();
+  Point local = inside(origin);
+  const double size = local.cwiseAbs().maxCoeff();
   // Covers the rounding of the primitive's own test, relative to its distance from the origin.
   const double pad = 8e-15 * (1.0 + size);
-  double enter = 0.0, leave = kInfinity;
-  for (int k = 0; k < Dim; ++k) {
-    const double d = std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
-    const double t0 = (-std::copysign(1.0 + pad, d) - far_origin[k]) / d;
-    const double t1 = (std::copysign(1.0 + pad, d) - far_origin[k]) / d;
-    enter = std::max(enter, t0);
-    leave = std::min(leave, t1);
+  Point inverse_direction;
+  for (int k = 0; k < Dim; ++k)
+    inverse_direction[k] =
+        1.0 / std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
+  // From outside, the boxes are met from where the ray enters the content's cube, so that floats
+  // serve from any distance.
+  double enter = 0.0;
+  if (size > 1.0) {
+    double leave = kInfinity;
+    for (int k = 0; k < Dim; ++k) {
+      const double side = std::copysign(1.0 + pad, direction[k]);
+      enter = std::max(enter, (-side - local[k]) * inverse_direction[k]);
+      leave = std::min(leave, (side - local[k]) * inverse_direction[k]);
+    }
+    if (enter * (1.0 - 1e-14) > leave * (1.0 + 1e-14)) return;
+    local += enter * direction;
+    // A ray that nearly misses from nearly infinitely far: rounding alone decides, and it misses.
+    if (!(local.cwiseAbs().maxCoeff() <= 4.0 + pad)) return;
   }
-  if (enter * (1.0 - 1e-14) > leave * (1.0 + 1e-14)) return;
-  const Point local = far_origin + enter * direction;
-  // A ray that nearly misses from nearly infinitely far: rounding alone decides, and it misses.
-  if (!(local.cwiseAbs().maxCoeff() <= 4.0 + pad)) return;
 
   std::array<Float4, Dim> near_origin, away_origin, inverse;
   std::array<std::size_t, Dim> near_plane, away_plane;
@@ -192,8 +197,7 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
     away_plane[i] = is_up ? i + Dim : i;
     near_origin[i] = splat(is_up ? high : low);
     away_origin[i] = splat(is_up ? low : high);
-    const double d = std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
-    inverse[i] = splat(static_cast<float>(1.0 / d));
+    inverse[i] = splat(static_cast<float>(inverse_direction[k]));
   }
   const Float4 shrink = splat(1.0F - 6e-7F), grow = splat(1.0F + 6e-7F);
   const auto limit = [&](double b) { return bound_up(std::max(b * scale_ - enter, 0.0) + pad); };

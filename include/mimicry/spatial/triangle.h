@@ -142,9 +142,9 @@ inline Ray::Ray(const Vec3& origin, const Vec3& direction)
   direction.cwiseAbs().maxCoeff(&kz_);
   kx_ = (kz_ + 1) % 3;
   ky_ = (kz_ + 2) % 3;
-  shear_x_ = direction[kx_] / direction[kz_];
-  shear_y_ = direction[ky_] / direction[kz_];
   shear_z_ = 1.0 / direction[kz_];
+  shear_x_ = direction[kx_] * shear_z_;
+  shear_y_ = direction[ky_] * shear_z_;
 }
 
 inline std::optional<Ray::Hit> Ray::hit(const Triangle& triangle) const {
