@@ -113,7 +113,7 @@ void run(const Arguments& args) {
   const double size = diagonal(named.mesh);
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
   render::Scene scene;
-  scene.surfaces.push_back({.mesh = &named.mesh});
+  scene.surfaces.emplace_back().mesh = &named.mesh;
   std::vector<stroke::Stroke> strokes;
   if (!args.strokes.empty())
     strokes = io::read_strokes(files::read_file(args.strokes), name_of(args.strokes));

@@ -51,6 +51,7 @@ Task published_curves(const Arguments& args, const NamedMesh& named) {
     throw Error(ErrorKind::invalid_input, file + ": has no shape '" + wanted + "', only " + names +
                                               "; name one with --shape");
   }
+  study::require_fits(*shape, named.mesh);
   Task task{{}, shape->scale};
   for (std::size_t i = 0; i < shape->curves.size(); ++i)
     task.curves.push_back({wanted + "-" + std::to_string(i), false, shape->curves[i].points});

@@ -1,0 +1,49 @@
+#include <mimicry/io/curves_glb.h>
+
+#include <cmath>
+#include <deque>
+
+#include <mimicry/io/tube_mesh.h>
+
+#include "io/glb.h"
+
+namespace mimicry::io {
+namespace {
+
+constexpr std::array<double, 3> kTargetColor = {0.6, 0.6, 0.62};
+
+// glTF colours are linear, ours sRGB.
+double linear(unsigned char srgb) {
+  const double s = srgb / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+// Tubes one after the other as a single mesh: a node is a curve, however many parts it has.
+void append(TubeMesh& all, const TubeMesh& part) {
+  const Index first = all.mesh.vertex_count();
+  std::vector<Vec3> positions(all.mesh.positions().begin(), all.mesh.positions().end());
+  std::vector<Face> faces(all.mesh.faces().begin(), all.mesh.faces().end());
+  positions.insert(positions.end(), part.mesh.positions().begin(), part.mesh.positions().end());
+  for (const Face& f : part.mesh.faces()) faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  all.mesh = TriangleMesh(std::move(positions), std::move(faces));
+  all.normals.insert(all.normals.end(), part.normals.begin(), part.normals.end());
+}
+
+}  // namespace
+
+std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors, double radius) {
+  std::deque<TubeMesh> tubes;  // parts point into it
+  std::vector<GlbPart> parts = {{set.target, &mesh, {}, kTargetColor}};
+  for (std::size_t i = 0; i < set.curves.size(); ++i) {
+    const CurveRecord& record = set.curves[i];
+    TubeMesh& tube = tubes.emplace_back();
+    for (const auto& part : curve::polylines(record.curve, mesh))
+      append(tube, tube_mesh(part, {.radius = radius}));
+    parts.push_back({record.stroke + " " + record.technique, &tube.mesh, tube.normals,
+                     std::array{linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])}});
+  }
+  return write_glb_scene(parts);
+}
+
+}  // namespace mimicry::io
