@@ -165,7 +165,7 @@ MeshReport validate(const TriangleMesh& mesh) {
   sides.reserve(at(mesh.face_count()) * 3);
   for (Index h = 0; h < 3 * mesh.face_count(); ++h) {
     if (repeats_corner(mesh.face(h / 3))) continue;
-    const auto [low, high] = std::minmax(tail(mesh, h), head(mesh, h));
+    const auto [low, high] = std::minmax({tail(mesh, h), head(mesh, h)});
     sides.push_back({low, high, h});
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
