@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
 namespace mimicry {
@@ -46,7 +47,7 @@ void TriangleMesh::set_positions(std::span<const Vec3> positions) {
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : mesh.positions())
-    if (p.allFinite()) box.extend(p);
+    if (is_finite(p)) box.extend(p);
   return box;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <mimicry/base/finite.h>
 #include <mimicry/mesh/validation.h>
 
 namespace mimicry {
@@ -17,7 +18,7 @@ std::size_t at(Index i) {
 }
 
 bool is_valid(const Vec3& p) {
-  return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestCoordinate;
+  return is_finite(p) && p.cwiseAbs().maxCoeff() <= kLargestCoordinate;
 }
 
 bool repeats_corner(const Face& f) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
 #include <mimicry/base/random.h>
 #include <mimicry/study/simulate.h>
 
@@ -39,11 +40,15 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   throw Error(ErrorKind::invalid_input, "simulate: " + what);
 }
 
+// False for NaN, which must not be compared: that trips the floating-point traps.
+bool within(double value, double least, double most) {
+  return std::isfinite(value) && value >= least && value <= most;
+}
+
 void check(const SimulationOptions& o) {
-  if (!(o.rate_hz >= 20 && o.rate_hz <= 1000))
+  if (!within(o.rate_hz, 20, 1000))
     fail("rate_hz " + std::to_string(o.rate_hz) + " is not within 20 to 1000");
-  if (!(o.least_duration_s > 0.1 && o.most_duration_s >= o.least_duration_s &&
-        o.most_duration_s <= 600))
+  if (!within(o.least_duration_s, 0.1, 600) || !within(o.most_duration_s, o.least_duration_s, 600))
     fail("durations must be within 0.1 to 600 s, the least first");
   for (const auto& [value, name] : {std::pair{o.mean_distance_m, "mean_distance_m"},
                                     {o.smoothing_m, "smoothing_m"},
@@ -67,9 +72,9 @@ void check(const SimulationOptions& o) {
                                     {o.most_tremor_hz, "most_tremor_hz"},
                                     {o.least_wobble_hz, "least_wobble_hz"},
                                     {o.most_wobble_hz, "most_wobble_hz"}})
-    if (!(value >= 0 && value <= 1000)) fail(std::string(name) + " is not within 0 to 1000");
-  if (!(o.least_curvature > 0)) fail("least_curvature must be positive");
-  if (!o.viewer.allFinite() || o.viewer.norm() < 1e-9) fail("viewer must be a direction");
+    if (!within(value, 0, 1000)) fail(std::string(name) + " is not within 0 to 1000");
+  if (!within(o.least_curvature, 1e-9, 1e9)) fail("least_curvature is not within 1e-9 to 1e9");
+  if (!is_finite(o.viewer) || o.viewer.norm() < 1e-9) fail("viewer must be a direction");
 }
 
 // A random motion whose spectrum lies in a band: sinusoids of random frequency and phase.
@@ -126,7 +131,7 @@ Path resampled(const spatial::Target& target, const stroke::Intention& intended,
   std::vector<double> lengths;
   for (const SurfacePoint& p : surface) {
     const Vec3 x = place.point(target.position(p));
-    if (!x.allFinite()) fail("curve " + intended.name + ": a point is not finite");
+    if (!is_finite(x)) fail("curve " + intended.name + ": a point is not finite");
     if (!points.empty() && x == points.back()) continue;
     lengths.push_back(points.empty() ? 0.0 : lengths.back() + (x - points.back()).norm());
     points.push_back(x);
@@ -344,8 +349,9 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
                     const Similarity& place, const SimulationOptions& options, std::uint64_t seed,
                     const InkFunction* ink) {
   check(options);
-  if (!(place.scale > 0) || !std::isfinite(place.scale))
-    fail("the target's scale must be positive");
+  if (!std::isfinite(place.scale) || place.scale <= 0 || !is_finite(place.translation) ||
+      !is_finite(place.rotation))
+    fail("the target's place must be finite and its scale positive");
   const Path path = resampled(target, intended, place);
   const HandPath hand = hand_path(path, options);
 
