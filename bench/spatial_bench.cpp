@@ -73,9 +73,9 @@ TriangleMesh read_triangles(const std::string& path) {
 // Embree's scene with our vertices in its floats, and the queries as floats.
 class Embree {
  public:
-  explicit Embree(const TriangleMesh& mesh) : device_(rtcNewDevice("threads=1")) {
+  Embree(const TriangleMesh& mesh, RTCSceneFlags flags) : device_(rtcNewDevice("threads=1")) {
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene_, flags);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
@@ -197,10 +197,16 @@ struct Scene {
   std::string name;
   Target target;
   Embree embree;
+  Embree robust;  // watertight rays, as ours are
   std::vector<Query> near, far, stroke;
 
   Scene(std::string n, const TriangleMesh& mesh)
-      : name(std::move(n)), target(mesh), embree(mesh), near(scattered(0.01)), far(scattered(0.1)) {
+      : name(std::move(n)),
+        target(mesh),
+        embree(mesh, RTC_SCENE_FLAG_NONE),
+        robust(mesh, RTC_SCENE_FLAG_ROBUST),
+        near(scattered(0.01)),
+        far(scattered(0.1)) {
     // A pen that follows the surface: 1/4000 of the diagonal a frame, 2 % above it.
     std::mt19937_64 random(3);
     std::normal_distribution<double> normal;
@@ -289,6 +295,11 @@ void add(const std::shared_ptr<Scene>& s) {
         name("ray", kind.name, "embree").c_str(), [=](benchmark::State& state) {
           run(state, *queries,
               [&](const Query& q) { return s->embree.first_hit(q.point, q.direction); });
+        });
+    benchmark::RegisterBenchmark(
+        name("ray", kind.name, "embree_robust").c_str(), [=](benchmark::State& state) {
+          run(state, *queries,
+              [&](const Query& q) { return s->robust.first_hit(q.point, q.direction); });
         });
   }
   benchmark::RegisterBenchmark(("build_hierarchy/" + s->name).c_str(), [=](benchmark::State&
