@@ -21,8 +21,13 @@ Triangle triangle_of(std::span<const Vec3> positions, const Face& f) {
   throw Error(ErrorKind::invalid_input, "target: " + what);
 }
 
+// Without arithmetic on what is not finite, nor comparison: both may trap.
+bool is_finite(const Vec3& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
 bool is_usable(const Vec3& x) {
-  return x.allFinite() && x.cwiseAbs().maxCoeff() <= kFarthestQuery;
+  return is_finite(x) && x.cwiseAbs().maxCoeff() <= kFarthestQuery;
 }
 
 // Positions that a target can stand on. Vertices that no face uses must be sound, too: they count
@@ -31,7 +36,7 @@ void check_positions(std::span<const Vec3> positions, std::span<const Face> face
   std::size_t bad = 0, first_bad = 0;
   Eigen::AlignedBox3d box;
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (positions[v].allFinite()) {
+    if (is_finite(positions[v])) {
       box.extend(positions[v]);
     } else if (bad++ == 0) {
       first_bad = v;
@@ -75,8 +80,9 @@ void check_manifold(const HalfEdges& edges, Index vertices) {
 
 // Unit length; zero where there is no direction.
 Vec3 unit(const Vec3& direction) {
+  if (!is_finite(direction)) return Vec3::Zero();
   const double largest = direction.cwiseAbs().maxCoeff();
-  if (!direction.allFinite() || !(largest > 0.0)) return Vec3::Zero();
+  if (largest == 0.0) return Vec3::Zero();
   if (largest > 1e-100 && largest < 1e100) return direction / direction.norm();
   const Vec3 scaled = direction / largest;  // squares neither vanish nor overflow
   return scaled / scaled.norm();
@@ -99,7 +105,7 @@ Target::Target(TriangleMesh mesh, const TargetOptions& options) : mesh_(std::mov
 
 std::optional<ClosestPoint> Target::closest_point(const Vec3& y, double upper_bound,
                                                   Index hint) const {
-  if (!is_usable(y) || !(upper_bound >= 0.0)) return std::nullopt;
+  if (!is_usable(y) || std::isnan(upper_bound) || upper_bound < 0.0) return std::nullopt;
   const double bound2 = upper_bound <= kFarthestQuery ? upper_bound * upper_bound : kInfinity;
   const NearestTriangle best = nearest_triangle(bvh_, y, bound2, hint, [&](Index f) {
     return triangle_of(mesh_.positions(), mesh_.face(f));
