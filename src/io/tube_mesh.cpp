@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <mimicry/base/error.h>
+#include <mimicry/io/tube_mesh.h>
+
+namespace mimicry::io {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRoundedBend = kPi / 12.0;  // 1 - cos of half of it is 0.9 %
+constexpr double kMinStep = 1e-6;            // of the radius
+
+/// Right-handed: `along` runs with the curve, `side` and along x side span the ring.
+struct Frame {
+  Vec3 along;
+  Vec3 side;
+};
+
+struct Ring {
+  Vec3 center;
+  Frame frame;
+  double at;  // arc length
+};
+
+bool finite(const Vec3& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+void check(std::span<const Vec3> points, const TubeOptions& options) {
+  if (!std::isfinite(options.radius) || options.radius <= 0.0) {
+    throw Error(ErrorKind::invalid_input, "tube: the radius must be positive and finite");
+  }
+  if (options.sides < 3 || options.sides > 1024) {
+    throw Error(ErrorKind::invalid_input, "tube: " + std::to_string(options.sides) +
+                                              " sides; the number must lie in 3..1024");
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!finite(points[i])) {
+      throw Error(ErrorKind::invalid_input,
+                  "tube: point " + std::to_string(i) + " is not finite; leave misses out");
+    }
+  }
+}
+
+std::vector<Vec3> distinct(std::span<const Vec3> points, double min_step) {
+  std::vector<Vec3> kept;
+  for (const Vec3& p : points) {
+    if (kept.empty() || (p - kept.back()).stableNorm() > min_step) kept.push_back(p);
+  }
+  return kept;
+}
+
+/// The least turn that takes one direction to another; half a turn around `side` for a reversal.
+struct Turn {
+  Vec3 axis;
+  double angle;
+};
+
+Turn turn_between(const Frame& from, const Vec3& along) {
+  const Vec3 cross = from.along.cross(along);
+  const double angle = std::atan2(cross.norm(), from.along.dot(along));
+  // Below this the axis is rounding noise; a reversal takes one that is square to the curve.
+  if (cross.norm() < 1e-12) return {from.side, angle > 1.0 ? kPi : 0.0};
+  return {cross.normalized(), angle};
+}
+
+Frame turned(const Frame& frame, const Turn& turn, double share) {
+  const Eigen::AngleAxisd rotation(share * turn.angle, turn.axis);
+  Frame result;
+  result.along = (rotation * frame.along).normalized();
+  const Vec3 side = rotation * frame.side;
+  result.side = (side - side.dot(result.along) * result.along).normalized();
+  return result;
+}
+
+/// The rings of a joint, and the frame that leaves it.
+Frame add_joint(const Vec3& center, double at, const Frame& before, const Vec3& along,
+                std::vector<Ring>& rings) {
+  const Turn turn = turn_between(before, along);
+  if (turn.angle <= kRoundedBend) {
+    rings.push_back({center, turned(before, turn, 0.5), at});
+  } else {
+    const int steps = static_cast<int>(std::ceil(turn.angle / kRoundedBend));
+    for (int i = 0; i <= steps; ++i) {
+      rings.push_back({center, turned(before, turn, static_cast<double>(i) / steps), at});
+    }
+  }
+  Frame after = turned(before, turn, 1.0);
+  after.along = along;  // no drift
+  after.side = (after.side - after.side.dot(along) * along).normalized();
+  return after;
+}
+
+/// Turns the rings of a closed tube about the curve, growing with arc length, so that the last
+/// frame meets the first.
+void spread_twist(std::vector<Ring>& rings, const Frame& first, const Frame& last, double length) {
+  const double twist =
+      std::atan2(first.along.dot(last.side.cross(first.side)), last.side.dot(first.side));
+  for (Ring& ring : rings) {
+    ring.frame.side =
+        Eigen::AngleAxisd(twist * ring.at / length, ring.frame.along) * ring.frame.side;
+  }
+}
+
+class Builder {
+ public:
+  Builder(double radius, int sides) : radius_(radius), sides_(sides) {}
+
+  void add_ring(const Vec3& center, const Frame& frame, double latitude) {
+    const Vec3 other = frame.along.cross(frame.side);
+    for (int k = 0; k < sides_; ++k) {
+      const double a = 2.0 * kPi * k / sides_;
+      const Vec3 out = std::cos(a) * frame.side + std::sin(a) * other;
+      const Vec3 normal =
+          (std::cos(latitude) * out + std::sin(latitude) * frame.along).normalized();
+      positions_.push_back(center + radius_ * normal);
+      normals_.push_back(normal);
+    }
+  }
+
+  void add_pole(const Vec3& center, const Vec3& direction) {
+    positions_.push_back(center + radius_ * direction);
+    normals_.push_back(direction);
+  }
+
+  /// Faces between the rings that start at vertices a and b, b further along the curve.
+  void join(Index a, Index b) {
+    for (int k = 0; k < sides_; ++k) {
+      const int next = (k + 1) % sides_;
+      faces_.push_back({a + k, a + next, b + next});
+      faces_.push_back({a + k, b + next, b + k});
+    }
+  }
+
+  void fan_before(Index pole, Index ring) {
+    for (int k = 0; k < sides_; ++k) faces_.push_back({pole, ring + (k + 1) % sides_, ring + k});
+  }
+
+  void fan_after(Index ring, Index pole) {
+    for (int k = 0; k < sides_; ++k) faces_.push_back({ring + k, ring + (k + 1) % sides_, pole});
+  }
+
+  Index next_vertex() const { return static_cast<Index>(positions_.size()); }
+
+  TubeMesh take() {
+    return {TriangleMesh(std::move(positions_), std::move(faces_)), std::move(normals_)};
+  }
+
+ private:
+  double radius_;
+  int sides_;
+  std::vector<Vec3> positions_, normals_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace
+
+TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
+  check(points, options);
+  std::vector<Vec3> kept = distinct(points, kMinStep * options.radius);
+  if (kept.empty()) return {};
+  bool closed = options.closed && kept.size() > 2;
+  if (closed && (kept.front() - kept.back()).stableNorm() <= kMinStep * options.radius) {
+    kept.pop_back();
+    closed = kept.size() > 2;
+  }
+
+  const std::size_t count = kept.size();
+  std::vector<Vec3> along;  // of the segment that leaves each point
+  for (std::size_t i = 0; i + 1 < count || (closed && i < count); ++i) {
+    along.push_back((kept[(i + 1) % count] - kept[i]).stableNormalized());
+  }
+  if (along.empty()) along.push_back(Vec3::UnitY());
+
+  const Frame first{along.front(), along.front().unitOrthogonal()};
+  std::vector<Ring> rings;
+  if (!closed) rings.push_back({kept.front(), first, 0.0});
+  Frame frame = first;
+  double at = 0.0;
+  for (std::size_t i = 1; i < along.size() + (closed ? 1 : 0); ++i) {
+    at += (kept[i % count] - kept[i - 1]).stableNorm();
+    frame = add_joint(kept[i % count], at, frame, along[i % count], rings);
+  }
+  if (closed) {
+    spread_twist(rings, first, frame, at);
+  } else if (count > 1) {
+    rings.push_back({kept.back(), frame, at});
+  }
+
+  const int cap_rings = closed ? 0 : std::max(2, options.sides / 4) - 1;
+  const auto vertices = (rings.size() + 2 * static_cast<std::size_t>(cap_rings)) *
+                            static_cast<std::size_t>(options.sides) +
+                        2;
+  if (vertices > static_cast<std::size_t>(std::numeric_limits<Index>::max() / 6)) {
+    throw Error(ErrorKind::unsupported,
+                "tube: " + std::to_string(vertices) + " vertices; take fewer points or sides");
+  }
+
+  Builder builder(options.radius, options.sides);
+  const Vec3 head = rings.front().center;
+  const Vec3 tail = rings.back().center;
+  const Frame head_frame = rings.front().frame;
+  const Frame tail_frame = rings.back().frame;
+  if (!closed) builder.add_pole(head, -head_frame.along);
+  const Index start = builder.next_vertex();
+  const auto latitude = [&](int i) { return 0.5 * kPi * i / (cap_rings + 1); };
+  for (int i = cap_rings; i >= 1; --i) builder.add_ring(head, head_frame, -latitude(i));
+  for (const Ring& ring : rings) builder.add_ring(ring.center, ring.frame, 0.0);
+  for (int i = 1; i <= cap_rings; ++i) builder.add_ring(tail, tail_frame, latitude(i));
+  const Index end = builder.next_vertex();
+  for (Index a = start; a + options.sides < end; a += options.sides) {
+    builder.join(a, a + options.sides);
+  }
+  if (closed) {
+    builder.join(end - options.sides, start);
+  } else {
+    builder.add_pole(tail, tail_frame.along);
+    builder.fan_before(start - 1, start);
+    builder.fan_after(end - options.sides, end);
+  }
+  return builder.take();
+}
+
+}  // namespace mimicry::io
