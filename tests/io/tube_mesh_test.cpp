@@ -94,7 +94,8 @@ TEST(TubeMesh, GentleBendsThinTheTubeByLessThanAPercent) {
     along = (along + Vec3(uniform(random), uniform(random), uniform(random))).normalized();
     line.push_back(line.back() + 0.5 * along);
   }
-  for (const Vec3& p : tube_mesh(line, options_of(0.05)).mesh.positions()) {
+  const TubeMesh tube = tube_mesh(line, options_of(0.05));
+  for (const Vec3& p : tube.mesh.positions()) {
     EXPECT_LT(distance(p, line), 0.05 * (1.0 + 1e-9));
     EXPECT_GT(distance(p, line), 0.05 * 0.991 - 1e-12);
   }
