@@ -31,6 +31,7 @@ struct Arguments {
   std::optional<double> azimuth;
   std::optional<double> elevation;
   double zoom = 1.0;
+  std::string up = "y";
   double tube_radius = 0.0;
   int columns = 0;
   int width = 0;
@@ -113,6 +114,7 @@ void run(const Arguments& args) {
   const double size = diagonal(named.mesh);
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
   render::Scene scene;
+  scene.up = args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY();
   scene.surfaces.emplace_back().mesh = &named.mesh;
   std::vector<stroke::Stroke> strokes;
   if (!args.strokes.empty())
@@ -181,6 +183,9 @@ void add_render(CLI::App& app, int&) {
       "--azimuth", args->azimuth,
       "Where the viewer stands, degrees; 0 is +z, 90 is +x (default: sees the curves)");
   command->add_option("--elevation", args->elevation, "Degrees above the horizon");
+  command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
   command->add_option("--zoom", args->zoom, "2 shows the middle twice as large")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

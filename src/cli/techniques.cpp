@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -45,9 +46,10 @@ void print_text() {
 
 void add_techniques(CLI::App& app, int&) {
   auto* command = app.add_subcommand("techniques", "List the techniques and their options");
-  auto* json = command->add_flag("--json", "For programs");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "For programs");
   command->callback([json] {
-    if (json->count() == 0) return print_text();
+    if (!*json) return print_text();
     Json list = Json::array();
     for (const technique::TechniqueInfo& info : technique::techniques())
       list.push_back(to_json(info));

@@ -1,0 +1,197 @@
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+#include <unistd.h>
+
+#include <mimicry/base/error.h>
+#include <mimicry/curve/curve_builder.h>
+#include <mimicry/io/curves.h>
+#include <mimicry/io/curves_glb.h>
+#include <mimicry/io/mesh_writer.h>
+#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/shapes.h>
+
+namespace mimicry::io {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::array<std::array<unsigned char, 3>, 2> kColors = {{{255, 0, 0}, {0, 128, 255}}};
+
+struct Sample {
+  TriangleMesh mesh = make_torus(24, 10);
+  CurveSet set;
+
+  Sample() {
+    const HalfEdges edges(mesh);
+    const auto normals = angle_weighted_normals(mesh);
+    set.target = "a, \"torus\"\nof two lines";
+    for (const int step : {7, 11}) {
+      curve::CurveBuilder builder(mesh, edges);
+      for (Index k = 0; k < 40; ++k) {
+        const Index face = (k * step) % mesh.face_count();
+        const SurfacePoint p{face, Vec3(0.2, 0.5, 0.3)};
+        if (k == 17) builder.break_here();
+        builder.append(
+            {p, mesh.position(p), interpolated_normal(mesh, normals, p), k, k / 90.0, 0.05});
+      }
+      CurveRecord record;
+      record.stroke = "s" + std::to_string(step);
+      record.technique = "snap";
+      record.options["nozzle"] = {0, 0, -1};
+      record.model_to_world.scale = 0.4;
+      record.curve = builder.curve();
+      set.curves.push_back(record);
+    }
+  }
+};
+
+struct Measured {
+  std::size_t parts, vertices;
+  double length;
+};
+
+// What the independent reader finds in the file.
+std::vector<Measured> read_independently(const std::string& format, const std::string& bytes,
+                                         const TriangleMesh& mesh) {
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("mimicry_curves_" + format + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "curves").string();
+  const std::string mesh_file = (folder / "mesh.obj").string();
+  std::ofstream(file, std::ios::binary) << bytes;
+  std::ofstream(mesh_file, std::ios::binary) << write_mesh(mesh, MeshFormat::obj);
+  const std::string command = "python3 " MIMICRY_CURVE_READER " " + format + " " + file +
+                              (format == "json" ? " " + mesh_file : "");
+  std::vector<Measured> measured;
+  {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+    Measured m{};
+    while (pipe && std::fscanf(pipe.get(), "%zu %zu %la", &m.parts, &m.vertices, &m.length) == 3)
+      measured.push_back(m);
+  }
+  std::filesystem::remove_all(folder);
+  return measured;
+}
+
+TEST(Curves, AnIndependentReaderFindsTheSameCurvesInEveryTextFormat) {
+  const Sample sample;
+  const std::pair<std::string, std::string> files[] = {
+      {"json", write_curves_json(sample.set, sample.mesh)},
+      {"obj", write_curves_obj(sample.set, sample.mesh)},
+      {"csv", write_curves_csv(sample.set, sample.mesh)},
+      {"ply", write_curves_ply(sample.set, sample.mesh, kColors)}};
+  for (const auto& [format, bytes] : files) {
+    SCOPED_TRACE(format);
+    const auto measured = read_independently(format, bytes, sample.mesh);
+    ASSERT_EQ(measured.size(), sample.set.curves.size());
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const curve::ProjectedCurve& curve = sample.set.curves[i].curve;
+      EXPECT_EQ(measured[i].parts, 2u);
+      EXPECT_EQ(measured[i].vertices, curve.points.size() + curve.crossings.size());
+      // The same sum in another order: a few roundings of a length of some units.
+      EXPECT_NEAR(measured[i].length, curve::length(curve), 1e-12);
+    }
+  }
+}
+
+TEST(Curves, JsonReadsBackToTheSameBits) {
+  const Sample sample;
+  const std::string bytes = write_curves_json(sample.set, sample.mesh);
+  const CurveSet read = read_curves_json(bytes, "c.json", sample.mesh);
+  EXPECT_EQ(write_curves_json(read, sample.mesh), bytes);
+  ASSERT_EQ(read.curves.size(), 2u);
+  EXPECT_EQ(read.target, sample.set.target);
+  EXPECT_EQ(read.curves[1].options, sample.set.curves[1].options);
+  const auto& a = read.curves[1].curve;
+  const auto& b = sample.set.curves[1].curve;
+  ASSERT_EQ(a.crossings.size(), b.crossings.size());
+  for (std::size_t i = 0; i < a.crossings.size(); ++i)
+    EXPECT_EQ(a.crossings[i].t, b.crossings[i].t);
+  EXPECT_EQ(curve::length(a), curve::length(b));
+}
+
+TEST(Curves, ForeignMeshAndBrokenFilesAreRefusedByName) {
+  const Sample sample;
+  const std::string bytes = write_curves_json(sample.set, sample.mesh);
+  const auto error_of = [&](const std::string& text, const TriangleMesh& mesh) -> std::string {
+    try {
+      read_curves_json(text, "c.json", mesh);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of(bytes, make_torus(24, 11)),
+              HasSubstr("was drawn on a mesh of 240 vertices"));
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string text = bytes;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_THAT(error_of(replaced("\"version\":1", "\"version\":2"), sample.mesh),
+              HasSubstr("version 2"));
+  EXPECT_THAT(error_of(replaced("\"face\":7", "\"face\":777777"), sample.mesh),
+              HasSubstr("beyond the mesh"));
+  EXPECT_THAT(error_of(replaced("\"bary\":[0.2", "\"bary\":[0.4"), sample.mesh),
+              HasSubstr("'bary'"));
+  EXPECT_THAT(error_of(replaced("\"kind\":\"section\"", "\"kind\":\"line\""), sample.mesh),
+              HasSubstr("'line'"));
+  for (std::size_t n = 0; n + 3 < bytes.size(); n += 97)
+    ASSERT_THAT(error_of(bytes.substr(0, n), sample.mesh), HasSubstr("c.json")) << n;
+}
+
+TEST(Curves, NoCurvesAndCurvesWithoutPointsAreFiles) {
+  const TriangleMesh mesh = make_sphere(2);
+  CurveSet set;
+  set.curves.resize(1);
+  for (const CurveSet& s : {CurveSet{}, set}) {
+    EXPECT_EQ(read_curves_json(write_curves_json(s, mesh), "c", mesh).curves.size(),
+              s.curves.size());
+    EXPECT_NO_THROW(write_curves_obj(s, mesh));
+    EXPECT_NO_THROW(write_curves_csv(s, mesh));
+    EXPECT_NO_THROW(write_curves_ply(s, mesh, kColors));
+    EXPECT_NO_THROW(write_curves_glb(s, mesh, kColors, 0.01));
+  }
+}
+
+TEST(Curves, TinygltfFindsTheTargetAndATubeForEachCurve) {
+  const Sample sample;
+  const std::string bytes = write_curves_glb(sample.set, sample.mesh, kColors, 0.01);
+  tinygltf::TinyGLTF loader;
+  tinygltf::Model model;
+  std::string error, warning;
+  ASSERT_TRUE(loader.LoadBinaryFromMemory(
+      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+      static_cast<unsigned>(bytes.size()), "", tinygltf::REQUIRE_ALL))
+      << error;
+  EXPECT_EQ(warning + error, "");
+  ASSERT_EQ(model.nodes.size(), 3u);
+  EXPECT_EQ(model.nodes[1].name, "s7 snap");
+  ASSERT_EQ(model.materials.size(), 3u);
+  EXPECT_EQ(model.materials[1].pbrMetallicRoughness.baseColorFactor,
+            (std::vector<double>{1, 0, 0, 1}));
+  // sRGB 128 is 0.2159 linear (IEC 61966-2-1).
+  EXPECT_NEAR(model.materials[2].pbrMetallicRoughness.baseColorFactor[1], 0.2159, 1e-4);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const tinygltf::Primitive& tube = model.meshes[i + 1].primitives.at(0);
+    const auto& positions = model.accessors.at(std::size_t(tube.attributes.at("POSITION")));
+    EXPECT_EQ(positions.count, model.accessors.at(std::size_t(tube.attributes.at("NORMAL"))).count);
+    // The tube is as large as the curve with its radius around.
+    Eigen::AlignedBox3d box;
+    for (const auto& part : curve::polylines(sample.set.curves[i].curve, sample.mesh))
+      for (const Vec3& x : part) box.extend(x);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(positions.minValues[std::size_t(k)], box.min()[k], 0.0101);
+      EXPECT_NEAR(positions.maxValues[std::size_t(k)], box.max()[k], 0.0101);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mimicry::io
