@@ -60,6 +60,7 @@ void check(const SimulationOptions& o) {
                                     {o.turn_noise_rad, "turn_noise_rad"},
                                     {o.speed_exponent, "speed_exponent"},
                                     {o.start_m, "start_m"},
+                                    {o.aimed_start_s, "aimed_start_s"},
                                     {o.head_distance_m, "head_distance_m"},
                                     {o.facing_rad, "facing_rad"},
                                     {o.most_head_turn_rad_per_s, "most_head_turn_rad_per_s"},
@@ -208,7 +209,7 @@ HandPath hand_path(const Path& path, const SimulationOptions& options) {
   bool is_offset = options.copy == HandCopy::offset;
   if (options.copy == HandCopy::automatic)
     is_offset = std::any_of(path.normals.begin(), path.normals.end(),
-                            [&mean](const Vec3& n) { return n.dot(mean) < 0.3; });
+                            [&mean](const Vec3& n) { return n.dot(mean) < 0; });
   const double sigma = options.smoothing_m / path.step;
   HandPath hand;
   hand.base = smoothed(path.points, sigma, path.closed ? Ends::closed : Ends::reflected);
@@ -366,9 +367,14 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
   const BandMotion tremor(options.tremor_m, options.least_tremor_hz, options.most_tremor_hz,
                           Random(seed, kTremor));
   Random noise_random(seed, kNoise);
+  // The start is aimed at before the trigger is pulled: slow errors begin at zero.
+  const auto settled = [&options](double t) {
+    return options.aimed_start_s > 0 ? 1 - std::exp(-t / options.aimed_start_s) : 1.0;
+  };
   std::vector<Vec3> disturbance;
   for (int f = 0; f < frames; ++f)
-    disturbance.push_back(drift(f * dt) + tremor(f * dt) + white(options.noise_m, noise_random));
+    disturbance.push_back(settled(f * dt) * drift(f * dt) + tremor(f * dt) +
+                          white(options.noise_m, noise_random));
 
   std::vector<Vec3> hand_points(hand.base.size());
   const auto plan_at = [&](double distance) {
@@ -466,7 +472,7 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
     aim_direction = forward;
     // The wobble turns the aim, not the roll: only the part across the forward axis counts, two of
     // three axes, hence the root of 1.5 above.
-    Vec3 turn = wobble(t);
+    Vec3 turn = settled(t) * wobble(t);
     turn -= turn.dot(forward) * forward;
     turn += turn_tremor(t) + white(options.turn_noise_rad, turn_noise_random);
     frame.controller.orientation = (small_turn(turn) * aim).normalized();

@@ -33,6 +33,7 @@ SimulationOptions steady() {
   SimulationOptions options;
   options.drift_m = options.tremor_m = options.noise_m = 0;
   options.wobble_rad = options.turn_tremor_rad = options.turn_noise_rad = 0;
+  options.aimed_start_s = 0;
   return options;
 }
 
@@ -213,6 +214,20 @@ TEST(Simulate, ControllerPointsAtTheIntendedCurve) {
   }
   EXPECT_GT(near, 0.8 * all);
   EXPECT_LT(near, all);  // and it does wobble
+}
+
+TEST(Simulate, TheStartIsAimed) {
+  const Scene s = scene("cube");
+  for (const stroke::Intention& curve : s.curves)
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const auto stroke = simulate(s.target, curve, s.place, {}, seed);
+      const stroke::Frame f = stroke::to_model(stroke.frames.front(), s.place);
+      const auto hit = s.target.first_hit(f.controller.position, f.controller.forward());
+      ASSERT_TRUE(hit);
+      // Tremor and noise of position and direction, 0.1 degrees at 5 to 10 cm.
+      EXPECT_LT((hit->position - s.target.position(curve.points.front())).norm() * s.place.scale,
+                0.001);
+    }
 }
 
 TEST(Simulate, WobbleHasItsSize) {

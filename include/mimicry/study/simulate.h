@@ -12,7 +12,7 @@ namespace mimicry::study {
 
 /// The curve in the air that the hand follows.
 enum class HandCopy {
-  automatic,   ///< translated where the surface faces one side along the whole curve, else offset
+  automatic,   ///< translated unless the surface turns more than 90 degrees from its mean normal
   translated,  ///< the intended curve, moved along its mean normal
   offset,      ///< the intended curve on an offset surface
 };
@@ -30,16 +30,17 @@ struct SimulationOptions {
   double drift_m = 0.0025;          ///< physiology: 2 to 3 mm
   double least_drift_hz = 0.1;      ///< assumed
   double most_drift_hz = 0.9;       ///< physiology: below 1 Hz
-  double tremor_m = 0.06e-3;        ///< physiology: 0.05 to 0.3 mm
+  double tremor_m = 0.1e-3;         ///< physiology: 0.05 to 0.3 mm
   double least_tremor_hz = 8;       ///< physiology
   double most_tremor_hz = 12;       ///< physiology
-  double noise_m = 0.03e-3;         ///< tracking: 0.02 to 0.3 mm, white
+  double noise_m = 0.06e-3;         ///< tracking: 0.02 to 0.3 mm, white
   double speed_exponent = 1.0 / 3;  ///< two-thirds power law: speed ~ curvature^(-1/3)
   double least_curvature = 2.0;     ///< 1/m, assumed: straighter parts are drawn no faster
   double start_m = 0.015;           ///< assumed: way to gather speed, and to stop
-  double wobble_rad = 8 * std::numbers::pi / 180;         ///< study: of the controller's aim
-  double least_wobble_hz = 0.1;                           ///< assumed
-  double most_wobble_hz = 0.5;                            ///< assumed
+  double wobble_rad = 8 * std::numbers::pi / 180;  ///< study: of the controller's aim
+  double least_wobble_hz = 0.1;                    ///< assumed
+  double most_wobble_hz = 0.5;                     ///< assumed
+  double aimed_start_s = 0.5;  ///< assumed: drift and wobble grow from zero with this time constant
   double turn_tremor_rad = 0.1 * std::numbers::pi / 180;  ///< assumed; in the tremor's band
   double turn_noise_rad = 0.03 * std::numbers::pi / 180;  ///< assumed, white
   double head_distance_m = 0.45;                          ///< study: from head to tip, about
