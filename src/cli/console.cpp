@@ -1,22 +1,37 @@
 #include "cli/console.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include <unistd.h>
 
 namespace mimicry::cli {
 
+namespace {
+
+// Columns of numbers (and of '-' for none) stand to the right.
+bool is_number(const std::string& cell) {
+  return !cell.empty() &&
+         (std::isdigit(static_cast<unsigned char>(cell.back())) != 0 || cell == "-");
+}
+
+}  // namespace
+
 void print_table(const std::vector<std::string>& headings,
                  const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
+  std::vector<bool> right(headings.size(), true);
   for (const std::string& h : headings) widths.push_back(h.size());
   for (const auto& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      widths[c] = std::max(widths[c], row[c].size());
+      right[c] = right[c] && c > 0 && is_number(row[c]);
+    }
   const auto print_row = [&](const std::vector<std::string>& row) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string pad(widths[c] - row[c].size(), ' ');
-      line += (c == 0 ? "" : "  ") + (c == 0 ? row[c] + pad : pad + row[c]);
+      line += (c == 0 ? "" : "  ") + (right[c] ? pad + row[c] : row[c] + pad);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     std::printf("%s\n", line.c_str());

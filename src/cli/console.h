@@ -6,7 +6,7 @@
 
 namespace mimicry::cli {
 
-/// Prints rows under their headings, columns aligned: the first to the left, numbers to the right.
+/// Prints rows under their headings, columns of numbers to the right, others to the left.
 void print_table(const std::vector<std::string>& headings,
                  const std::vector<std::vector<std::string>>& rows);
 

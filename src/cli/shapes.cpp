@@ -34,10 +34,9 @@ void list_shapes(bool json) {
                     {"least_resolution", s.least_resolution},
                     {"most_resolution", s.most_resolution},
                     {"metres_per_unit", s.metres_per_unit}});
-    rows.push_back(
-        {std::string(s.name), std::to_string(s.default_resolution),
-         std::to_string(s.least_resolution) + ".." + std::to_string(s.most_resolution),
-         "  " + std::string(s.description) + "; resolution: " + std::string(s.resolution)});
+    rows.push_back({std::string(s.name), std::to_string(s.default_resolution),
+                    std::to_string(s.least_resolution) + ".." + std::to_string(s.most_resolution),
+                    std::string(s.description) + "; resolution: " + std::string(s.resolution)});
   }
   if (json)
     std::printf("%s\n", list.dump(2).c_str());

@@ -37,7 +37,7 @@ void print_text() {
     for (const technique::OptionInfo& o : info.options)
       options += (options.empty() ? "" : " ") + std::string(o.name);
     rows.push_back({std::string(info.name), info.needs_bake ? "yes" : "no",
-                    options.empty() ? "-" : options, "  " + std::string(info.description)});
+                    options.empty() ? "-" : options, std::string(info.description)});
   }
   print_table({"technique", "bake", "options", ""}, rows);
 }
