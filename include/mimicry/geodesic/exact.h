@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::geodesic {
+
+struct Source {
+  SurfacePoint point;
+  double distance = 0.0;  ///< the distance that it starts from, >= 0
+};
+
+struct ExactOptions {
+  /// Stop when all distances up to here are known; points farther away count as unreachable.
+  double radius = kInfinity;
+  /// Stop as soon as the distances of these are known; empty: all points.
+  std::span<const SurfacePoint> targets = {};
+  /// Windows made before the search gives up, 0 for 4,000 for each face: a bound for meshes made to
+  /// break it. Then `exact` is false and distances are upper bounds.
+  std::size_t most_windows = 0;
+};
+
+/// A shortest path from a source to a point.
+struct ExactPath {
+  bool found = false;               ///< false where no source reaches the point
+  std::size_t source = 0;           ///< number of the source that it starts at
+  double length = 0.0;              ///< of the path itself, model units
+  std::vector<Crossing> crossings;  ///< from the source to the point, exclusive of both
+};
+
+/// Exact geodesic distances from any number of surface points, by windows on edges (Mitchell, Mount
+/// and Papadimitriou 1987; made practical by Surazhsky, Surazhsky, Kirsanov, Gortler and Hoppe
+/// 2005), pruned with the distances of vertices (Xin and Wang 2009). Where we differ: a window is
+/// cut where it is not nearest also in the rare case of two cuts, and distances in a sliver that
+/// rounding has left without a window are measured around the ends of its neighbours. Boundary and
+/// non-manifold edges are not crossed; faces without area and edges without length are allowed.
+/// Refers to mesh and half_edges, which must outlive it and not change.
+class ExactGeodesics {
+ public:
+  /// O(#V + #F). Throws Error(invalid_input) where a vertex is not finite.
+  ExactGeodesics(const TriangleMesh& mesh, const HalfEdges& half_edges);
+  ~ExactGeodesics();
+  ExactGeodesics(ExactGeodesics&&) noexcept;
+  ExactGeodesics& operator=(ExactGeodesics&&) noexcept;
+
+  /// Forgets what was computed before. Throws Error(invalid_input) for sources or targets off the
+  /// mesh or a distance that is negative or not finite. No sources: nothing is reachable. About
+  /// O(#F^1.5) in practice; single thread.
+  void compute(std::span<const Source> sources, const ExactOptions& options = {});
+  void compute(const SurfacePoint& source, const ExactOptions& options = {});
+
+  /// kInfinity where no source reaches the vertex, or the search stopped before.
+  double distance(Index vertex) const;
+  /// Distance at any surface point, which must be valid.
+  double distance(const SurfacePoint& p) const;
+  /// The shortest path to p, traced back through the windows. O(crossings).
+  ExactPath path_to(const SurfacePoint& p) const;
+
+  /// False after a search that gave up (`ExactOptions::most_windows`).
+  bool exact() const;
+  /// Windows made by the last computation, and the bytes that it holds.
+  std::size_t windows_made() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace mimicry::geodesic

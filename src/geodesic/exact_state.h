@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <mimicry/geodesic/exact.h>
+#include <mimicry/geodesic/site.h>
+
+#include "geodesic/surface_frames.h"
+#include "geodesic/window_lists.h"
+
+namespace mimicry::geodesic {
+
+/// The best way from a point of a face toward a source, one step of it.
+struct Step {
+  enum class Kind { none, source, vertex, edge };
+  Kind kind = Kind::none;
+  double distance = kInfinity;
+  Index index = kNone;  ///< number of the source; the vertex; the face's half-edge
+  double x = 0.0;       ///< edge: where along the half-edge
+};
+
+struct ExactGeodesics::State {
+  State(const TriangleMesh& mesh_in, const HalfEdges& half_edges_in)
+      : mesh(mesh_in), half_edges(half_edges_in), surface(mesh_in, half_edges_in) {}
+
+  const TriangleMesh& mesh;
+  const HalfEdges& half_edges;
+  SurfaceFrames surface;
+
+  struct Entry {
+    double key;
+    Index item;                                 ///< a window, or -1 - vertex
+    bool operator<(const Entry& other) const {  // of a heap with the nearest on top
+      return key != other.key ? key > other.key : item > other.item;
+    }
+  };
+
+  /// What comes in over half-edge `entered`, in its frame: all between two rays from a source below
+  /// the edge.
+  struct Fan {
+    Index entered;
+    Vec2 source;
+    Vec2 left;
+    Vec2 right;
+    double sigma;
+    Index root;
+    int depth;
+  };
+
+  std::vector<Source> sources;                        // barycentrics normalised
+  std::vector<std::pair<Index, Index>> face_sources;  // (face, source), sorted
+  WindowLists lists;
+  std::vector<Entry> heap;
+  std::vector<Index> added;
+  std::vector<double> distances;         // #V
+  std::vector<double> arrival_angles;    // #V, around the vertex, of the way it was reached
+  std::vector<Index> arrived_from;       // #V: a vertex along an edge, kThroughFaces, kNone
+  std::vector<Index> vertex_sources;     // #V: the source that the vertex is, kNone
+  std::vector<std::uint8_t> is_watched;  // #V, a corner of a target's face
+  bool watched_changed = false;
+  double known = 0.0;  // distances up to here are final
+  std::size_t made = 0;
+  bool complete = true;
+
+  static constexpr Index kThroughFaces = -2;
+  static constexpr Index kIsSource = -3;
+
+  const EdgeFrame& frame(Index h) const { return surface.frames[static_cast<std::size_t>(h)]; }
+  double at(Index vertex) const { return distances[static_cast<std::size_t>(vertex)]; }
+
+  void compute(std::span<const Source> new_sources, const ExactOptions& options);
+  void start(Index source);
+  void push(double key, Index item);
+  bool reach_vertex(Index v, double distance, Index from);
+  void leave_vertex(Index v);
+  void propagate(const Window& window);
+  void spread(const Fan& fan);
+  void add_window(Index h, double begin, double end, double x, double y, double sigma, Index root);
+
+  /// Position in the frame of half-edge h of a point of its face.
+  Vec2 in_frame(Index h, const SurfacePoint& p) const;
+  /// The best step from p, which lies in the face; of windows those over edge `entered` are left
+  /// out.
+  Step best_step(const SurfacePoint& p, Index entered) const;
+  void best_window(Index h, const Vec2& p, Step& best) const;
+  double distance_at(const SurfacePoint& p) const;
+  ExactPath path_to(const SurfacePoint& p) const;
+};
+
+}  // namespace mimicry::geodesic
