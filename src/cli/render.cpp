@@ -65,7 +65,7 @@ render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh
                                                 std::to_string(p.face) + ", beyond the mesh");
     tube.points.push_back(mesh.position(p));
   }
-  tube.radius = 1.4 * radius;
+  tube.radius = 0.75 * radius;  // hidden where the curve is right
   tube.color = kIntendedColor;
   tube.label = "intended";
   return tube;

@@ -1,10 +1,26 @@
 #include <mimicry/curve/curve_builder.h>
-#include <mimicry/geodesic/plane_section.h>
 
 namespace mimicry::curve {
+namespace {
+
+PieceKind kind_of(geodesic::PathLabel label) {
+  switch (label) {
+    case geodesic::PathLabel::same_face:
+      return PieceKind::same_face;
+    case geodesic::PathLabel::shortest:
+      return PieceKind::shortest;
+    case geodesic::PathLabel::locally_shortest:
+      return PieceKind::locally_shortest;
+    case geodesic::PathLabel::disconnected:
+      return PieceKind::chord;
+  }
+  return PieceKind::chord;
+}
+
+}  // namespace
 
 CurveBuilder::CurveBuilder(const TriangleMesh& mesh, const HalfEdges& half_edges)
-    : mesh_(&mesh), half_edges_(&half_edges) {}
+    : paths_(mesh, half_edges) {}
 
 void CurveBuilder::clear() {
   curve_.points.clear();
@@ -34,10 +50,10 @@ void CurveBuilder::append(const CurvePoint& point) {
 Piece CurveBuilder::join(const CurvePoint& from, const CurvePoint& to) {
   Piece piece;
   piece.first_crossing = static_cast<std::uint32_t>(curve_.crossings.size());
-  const geodesic::PlaneSection section = geodesic::trace_plane_section(
-      *mesh_, *half_edges_, from.surface, to.surface, from.normal + to.normal, curve_.crossings);
-  piece.kind = section.found ? PieceKind::section : PieceKind::chord;
-  piece.length = section.found ? section.length : (to.position - from.position).norm();
+  const geodesic::LocalPath path = paths_.find(from.surface, to.surface, curve_.crossings);
+  piece.kind = kind_of(path.label);
+  piece.length =
+      piece.kind == PieceKind::chord ? (to.position - from.position).norm() : path.length;
   piece.crossing_count = static_cast<std::uint32_t>(curve_.crossings.size()) - piece.first_crossing;
   return piece;
 }

@@ -1,5 +1,7 @@
 #include "geodesic/path_search.h"
 
+#include <mimicry/geodesic/local_path.h>
+
 namespace mimicry::geodesic {
 
 // Relative differences below this are rounding.
@@ -9,7 +11,11 @@ PathSearch::PathSearch(const TriangleMesh& mesh, const HalfEdges& half_edges)
     : mesh_(mesh),
       half_edges_(half_edges),
       distances_(static_cast<std::size_t>(mesh.vertex_count())),
-      stamps_(static_cast<std::size_t>(mesh.vertex_count()), 0) {}
+      stamps_(static_cast<std::size_t>(mesh.vertex_count()), 0) {
+  // Up to the default bound no search allocates.
+  nodes_.reserve(LocalPathOptions{}.most_windows + 64);
+  heap_.reserve(LocalPathOptions{}.most_windows + 64);
+}
 
 bool PathSearch::holds_target(Index face) const {
   if (face == target_faces_[0] || face == target_faces_[1]) return true;

@@ -15,8 +15,12 @@ using curve::ProjectedCurve;
 
 constexpr const char* kFormat = "mimicry-curves";
 
-constexpr std::array<std::pair<PieceKind, const char*>, 3> kKinds = {
-    {{PieceKind::section, "section"}, {PieceKind::chord, "chord"}, {PieceKind::gap, "gap"}}};
+constexpr std::array<std::pair<PieceKind, const char*>, 5> kKinds = {
+    {{PieceKind::same_face, "same-face"},
+     {PieceKind::shortest, "shortest"},
+     {PieceKind::locally_shortest, "locally-shortest"},
+     {PieceKind::chord, "chord"},
+     {PieceKind::gap, "gap"}}};
 
 const char* kind_name(PieceKind kind) {
   for (const auto& [value, name] : kKinds)

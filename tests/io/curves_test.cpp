@@ -140,7 +140,7 @@ TEST(Curves, ForeignMeshAndBrokenFilesAreRefusedByName) {
               HasSubstr("beyond the mesh"));
   EXPECT_THAT(error_of(replaced("\"bary\":[0.2", "\"bary\":[0.4"), sample.mesh),
               HasSubstr("'bary'"));
-  EXPECT_THAT(error_of(replaced("\"kind\":\"section\"", "\"kind\":\"line\""), sample.mesh),
+  EXPECT_THAT(error_of(replaced("\"kind\":\"shortest\"", "\"kind\":\"line\""), sample.mesh),
               HasSubstr("'line'"));
   for (std::size_t n = 0; n + 3 < bytes.size(); n += 97)
     ASSERT_THAT(error_of(bytes.substr(0, n), sample.mesh), HasSubstr("c.json")) << n;

@@ -3,12 +3,14 @@
 #include <cstddef>
 
 #include <mimicry/curve/projected_curve.h>
+#include <mimicry/geodesic/local_path.h>
 #include <mimicry/mesh/half_edges.h>
 
 namespace mimicry::curve {
 
-/// Appends points to a curve as they are drawn, and joins each to the one before. What has been
-/// appended never changes. Refers to the mesh, which must outlive it.
+/// Appends points to a curve as they are drawn, and joins each to the one before by the shortest
+/// path on the surface (geodesic/local_path.h). What has been appended never changes. Refers to
+/// mesh and half_edges, which must outlive it.
 class CurveBuilder {
  public:
   CurveBuilder(const TriangleMesh& mesh, const HalfEdges& half_edges);
@@ -28,8 +30,7 @@ class CurveBuilder {
  private:
   Piece join(const CurvePoint& from, const CurvePoint& to);
 
-  const TriangleMesh* mesh_;
-  const HalfEdges* half_edges_;
+  geodesic::LocalPathFinder paths_;
   ProjectedCurve curve_;
   bool broken_ = false;
 };

@@ -21,9 +21,11 @@ struct CurvePoint {
 };
 
 enum class PieceKind : std::uint8_t {
-  section,  ///< on the surface: the section with the plane through both points and their normals
-  chord,  ///< straight through space: the surface does not join the points (components, a boundary)
-  gap,    ///< nothing is drawn: the curve was broken here
+  same_face,         ///< straight inside one face
+  shortest,          ///< the shortest path on the surface
+  locally_shortest,  ///< a straight path on the surface; the search for a shorter one was given up
+  chord,             ///< straight through space: the surface does not join the points
+  gap,               ///< nothing is drawn: the curve was broken here
 };
 
 /// What joins point i to point i + 1.
@@ -54,8 +56,8 @@ double length(const ProjectedCurve& curve);
 std::vector<std::vector<Vec3>> polylines(const ProjectedCurve& curve, const TriangleMesh& mesh);
 
 /// Moves a curve with its target after the target's vertices have moved: positions, normals and
-/// lengths from the faces and barycentrics, which stay. normals: #V unit vertex normals. A section
-/// stays the same chain of crossings. O(points + crossings).
+/// lengths from the faces, barycentrics and crossings, which stay. O(points + crossings).
+/// vertex_normals: #V by 3, unit.
 void follow(ProjectedCurve& curve, const TriangleMesh& mesh, std::span<const Vec3> vertex_normals);
 
 }  // namespace mimicry::curve
