@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <mimicry/base/finite.h>
+
 #include <mimicry/stroke/frame.h>
 
 namespace mimicry::stroke {
@@ -11,8 +13,8 @@ Pose to_model(const Pose& world, const Similarity& model_to_world) {
 }
 
 std::optional<std::string> pose_problem(const Pose& pose, const char* device) {
-  if (!pose.position.allFinite()) return std::string(device) + " position is not finite";
-  if (!pose.orientation.coeffs().allFinite())
+  if (!is_finite(pose.position)) return std::string(device) + " position is not finite";
+  if (!is_finite(pose.orientation))
     return std::string(device) + " orientation is not finite";
   const double length = pose.orientation.coeffs().stableNorm();
   if (!(std::abs(length - 1.0) <= kUnitTolerance))
@@ -22,7 +24,7 @@ std::optional<std::string> pose_problem(const Pose& pose, const char* device) {
 }
 
 bool is_fraction(double x) {
-  return x >= 0.0 && x <= 1.0;
+  return std::isfinite(x) && x >= 0.0 && x <= 1.0;
 }
 
 }  // namespace

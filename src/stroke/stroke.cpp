@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
 #include <mimicry/stroke/stroke.h>
 
 namespace mimicry::stroke {
@@ -8,9 +9,9 @@ namespace mimicry::stroke {
 void require_usable(const Stroke& stroke) {
   const std::string name = "stroke '" + stroke.id + "'";
   const Similarity& placed = stroke.model_to_world;
-  if (!placed.translation.allFinite() || !placed.rotation.coeffs().allFinite() ||
+  if (!is_finite(placed.translation) || !is_finite(placed.rotation) || !std::isfinite(placed.scale) ||
       !(std::abs(placed.rotation.coeffs().stableNorm() - 1.0) <= kUnitTolerance) ||
-      !(placed.scale > 0.0) || !std::isfinite(placed.scale))
+      !(placed.scale > 0.0))
     throw Error(ErrorKind::invalid_input,
                 name +
                     ": model_to_world is not a similarity; give a finite translation, a unit "

@@ -69,7 +69,7 @@ void set_option(const TechniqueInfo& technique, Options& options, std::string_vi
                                                 " numbers, not " + std::to_string(values.size()));
     double largest = 0.0;
     for (const double v : values) {
-      if (!(v >= info.lowest && v <= info.highest))
+      if (!std::isfinite(v) || v < info.lowest || v > info.highest)
         throw Error(ErrorKind::invalid_input, label + ": " + std::to_string(v) +
                                                   " is not between " + std::to_string(info.lowest) +
                                                   " and " + std::to_string(info.highest));

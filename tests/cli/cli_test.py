@@ -1,0 +1,129 @@
+"""Runs the program as its users do: cli_test.py PROGRAM STUDY_DATA."""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, STUDY = sys.argv[1:3]
+
+
+def run(*args, expect=0):
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=120)
+    assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
+    return done
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, *names):
+        return os.path.join(self.folder.name, *names)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def test_from_shape_to_picture(self):
+        mesh, strokes, out = self.path("cube.ply"), self.path("s.json"), self.path("deep", "out")
+        run("shapes", "rounded-cube", "--out", mesh)
+        run("simulate", mesh, "--shape", "rounded-cube", "--out", strokes, "--rate", "30")
+        table = json.loads(run("project", mesh, strokes, "--out", out, "--json").stdout)
+        names = [row["technique"] for row in table["techniques"]]
+        listed = [t["name"] for t in json.loads(run("techniques", "--json").stdout)]
+        self.assertEqual(names, listed)
+        for row in table["techniques"]:
+            self.assertGreater(row["points"], 20, row)
+            self.assertGreater(row["length_m"], 0.1, row)
+        self.assertEqual(sorted(os.listdir(out)), ["curves." + f for f in
+                                                   ("csv", "glb", "json", "obj", "ply")])
+        picture = self.path("deep", "p.png")
+        run("render", mesh, "--strokes", strokes, "--curves", os.path.join(out, "curves.json"),
+            "--side-by-side", "--width", "120", "--height", "100", "--out", picture)
+        with open(picture, "rb") as file:
+            head = file.read(24)
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertGreater(struct.unpack(">II", head[16:])[0], 240)
+
+    def test_same_input_gives_the_same_files(self):
+        for out in ("a", "b"):
+            run("simulate", "shape:torus:24", "--seed", "7", "--out", self.path(out + ".json"))
+            run("project", "shape:torus:24", self.path(out + ".json"), "--out", self.path(out))
+        for name in os.listdir(self.path("a")):
+            with open(self.path("a", name), "rb") as a, open(self.path("b", name), "rb") as b:
+                self.assertEqual(a.read(), b.read(), name)
+
+    def test_closed_loop_comes_nearer(self):
+        off = []
+        for extra in ([], ["--closed-loop", "anchored-closest"]):
+            run("simulate", "shape:torus:48", "--out", self.path("s.json"), *extra)
+            done = run("project", "shape:torus:48", self.path("s.json"), "-t", "anchored-closest",
+                       "--json", "--formats", "csv", "--out", self.path("o"))
+            off.append(json.loads(done.stdout)["techniques"][0]["mean_distance_to_intended_m"])
+        self.assertLess(off[1], 0.5 * off[0])
+
+    def test_info(self):
+        report = json.loads(run("info", "shape:double-torus", "--json").stdout)
+        self.assertEqual((report["genus"], report["closed"], report["drawable"]), (2, True, True))
+        book = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"
+        mesh = self.write("book.obj", book)
+        done = run("info", mesh, expect=3)
+        self.assertIn("non-manifold edges                 1 (first: vertices 0-1)", done.stdout)
+        self.assertIn("--allow-nonmanifold", done.stdout)
+        run("info", mesh, "--allow-nonmanifold")
+
+    def test_errors_name_thing_place_and_remedy(self):
+        def fails(expect, *args):
+            done = run(*args, expect=expect)
+            self.assertTrue(done.stderr.startswith("mimicry: ") or expect == 2, done.stderr)
+            return done.stderr
+
+        self.assertIn("nowhere.obj", fails(4, "info", self.path("nowhere.obj")))
+        self.assertIn("cut.obj", fails(3, "info", self.write("cut.obj", "v 0 0 zero\n")))
+        self.assertIn("torus", fails(3, "info", "shape:donut"))
+        self.assertIn("resolution", fails(3, "info", "shape:torus:many"))
+        self.assertIn("empty.obj", fails(3, "info", self.write("empty.obj", "")))
+        fails(2, "project")
+        fails(2, "fly")
+        run("simulate", "shape:sphere", "--out", self.path("s.json"))
+        self.assertIn("snap", fails(3, "project", "shape:sphere", self.path("s.json"), "-t", "smap",
+                                    "--out", self.path("o")))
+        self.assertIn("muzzle", fails(3, "project", "shape:sphere", self.path("s.json"), "--option",
+                                      "muzzle=1", "--out", self.path("o")))
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            cut = file.read(5000)
+        self.assertIn("half.json: stroke 0", fails(3, "project", "shape:sphere",
+                                                   self.write("half.json", cut)))
+        self.assertIn("face", fails(3, "project", "shape:sphere:1", self.path("s.json"),
+                                    "--out", self.path("o")))
+        self.assertFalse(os.path.exists(self.path("o")), "nothing is left behind")
+        blocked = self.write("file", "")
+        fails(4, "project", "shape:sphere", self.path("s.json"), "--out", os.path.join(blocked, "x"))
+
+    def test_options_reach_the_technique(self):
+        run("simulate", "shape:sphere", "--out", self.path("s.json"))
+        run("project", "shape:sphere", self.path("s.json"), "-t", "spraycan", "--option",
+            "nozzle=0,0,1", "--misses", "split", "--formats", "json", "--out", self.path("o"))
+        with open(self.path("o", "curves.json"), encoding="utf-8") as file:
+            curves = json.load(file)["curves"]
+        self.assertEqual(curves[0]["options"], {"nozzle": [0, 0, 1]})
+        self.assertLess(sum(len(c["points"]) for c in curves), 50, "it sprays backwards")
+
+    def test_study_targets(self):
+        if not os.path.isdir(STUDY):
+            self.skipTest("the study's shapes are not there: " + STUDY)
+        bunny, targets = os.path.join(STUDY, "bunny.obj"), os.path.join(STUDY, "targets.json")
+        run("simulate", bunny, "--targets", targets, "--curves", "bunny-2", "--out", self.path("s.json"))
+        done = run("project", bunny, self.path("s.json"), "-t", "spraycan,anchored-closest", "--json",
+                   "--formats", "csv", "--out", self.path("o"))
+        for row in json.loads(done.stdout)["techniques"]:
+            self.assertLess(row["mean_distance_to_intended_m"], 0.1, row)
+
+
+unittest.main(argv=["cli_test"], verbosity=2)
