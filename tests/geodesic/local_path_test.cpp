@@ -1,7 +1,3 @@
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
@@ -10,23 +6,7 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/support.h"
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}
-
-// The whole program counts its allocations.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
+#include "support/allocations.h"
 
 namespace mimicry::geodesic {
 namespace {
@@ -162,9 +142,9 @@ TEST(LocalPath, AppendsAndDoesNotAllocateAfterWarmUp) {
   EXPECT_LT(given_up, 190u);
   const std::size_t total = crossings.size();
   crossings.clear();
-  const std::size_t before = allocations;
+  const long before = mimicry::test::allocation_count();
   for (const auto& [a, b] : pairs) finder.find(a, b, crossings, options);
-  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(mimicry::test::allocation_count(), before);
   EXPECT_EQ(crossings.size(), total);
 }
 

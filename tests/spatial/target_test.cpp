@@ -15,7 +15,7 @@
 namespace mimicry::spatial {
 namespace {
 
-using mimicry::testing::allocation_count;
+using mimicry::test::allocation_count;
 using ::testing::HasSubstr;
 using testing::Random;
 using testing::uniform_vector;

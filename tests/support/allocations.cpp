@@ -8,7 +8,7 @@ namespace {
 std::atomic<long> allocations = 0;
 }
 
-long mimicry::testing::allocation_count() {
+long mimicry::test::allocation_count() {
   return allocations;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-namespace mimicry::testing {
+namespace mimicry::test {
 
 /// Allocations through operator new so far. Only in programs that compile support/allocations.cpp.
 long allocation_count();
 
-}  // namespace mimicry::testing
+}  // namespace mimicry::test
