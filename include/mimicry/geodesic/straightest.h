@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::geodesic {
+
+enum class TraceStop : std::uint8_t {
+  complete,      ///< the whole length was walked
+  boundary,      ///< met a boundary edge or vertex, or left through it at once
+  non_manifold,  ///< met a vertex where several fans touch
+  no_direction   ///< the direction has no part along the surface
+};
+
+struct Trace {
+  TraceStop stop = TraceStop::complete;
+  SurfacePoint end;               ///< where it stopped
+  Vec3 direction = Vec3::Zero();  ///< unit, in the plane of end.face: the way it was going
+  double length = 0.0;            ///< walked, model units
+};
+
+/// The straightest geodesic from a surface point: straight in faces and over unfolded edges, and
+/// with equal angles to its left and right at vertices (Polthier and Schmies 1998, definition 7).
+/// This is the exponential map of direction times length. `direction` is a vector in space, any
+/// length; its part in the plane of from.face counts when it leads into that face, else that of the
+/// face around the point (of an edge or vertex) that it leads into best. length >= 0; 0 stays in
+/// place. Appends the edges and vertices passed to `crossings` where it is given. Edges without
+/// twin stop it. Throws Error(invalid_input) for a point off the mesh and a direction or length
+/// that is not finite or negative. O(faces crossed).
+Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
+                        const SurfacePoint& from, const Vec3& direction, double length,
+                        std::vector<Crossing>* crossings = nullptr);
+
+/// Carries a tangent vector along a path on the surface: turned with the faces over edges; at a
+/// vertex its angle to the path stays, angles there measured in parts of the vertex's total angle
+/// (Polthier and Schmies 1998, definition 12). `vector` lies in the plane of from.face (what sticks
+/// out of it is dropped), the answer in that of to.face; lengths stay. Through boundary and
+/// non-manifold vertices it goes along the fan between the two faces. The path must be connected
+/// (`Crossing`s as all path functions of this module give them). O(crossings + faces around the
+/// vertices passed).
+Vec3 parallel_transport(const TriangleMesh& mesh, const HalfEdges& half_edges,
+                        const SurfacePoint& from, std::span<const Crossing> crossings,
+                        const SurfacePoint& to, const Vec3& vector);
+
+}  // namespace mimicry::geodesic

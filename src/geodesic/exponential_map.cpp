@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+
+#include <mimicry/base/error.h>
+#include <mimicry/geodesic/exponential_map.h>
+#include <mimicry/geodesic/site.h>
+#include <mimicry/mesh/normals.h>
+
+namespace mimicry::geodesic {
+namespace {
+
+// A unit vector orthogonal to `normal`, near v.
+Vec3 in_plane(const Vec3& v, const Vec3& normal) {
+  const Vec3 part = v - v.dot(normal) * normal;
+  const double size = part.norm();
+  return size > 1e-12 * v.norm() ? Vec3(part / size) : normal.unitOrthogonal();
+}
+
+// A unit vector turned as the least rotation turns one normal into the other.
+Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
+  const Vec3 sum = from + to;
+  const double size = sum.squaredNorm();
+  if (size < 1e-12) return in_plane(v, to);  // opposite: no least rotation
+  return in_plane(v - 2.0 * v.dot(to) / size * sum, to);
+}
+
+// From a to b, counter-clockwise positive.
+double angle(const Vec2& a, const Vec2& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+// A vector of space laid in the tangent plane with its length kept.
+Vec2 laid(const Vec3& v, const Vec3& x_axis, const Vec3& normal) {
+  const Vec2 flat(v.dot(x_axis), v.dot(normal.cross(x_axis)));
+  const double size = flat.norm();
+  return size > 1e-12 * v.norm() ? Vec2(flat * (v.norm() / size)) : Vec2(v.norm(), 0.0);
+}
+
+}  // namespace
+
+DiscreteExponentialMap::DiscreteExponentialMap(const TriangleMesh& mesh,
+                                               const HalfEdges& half_edges,
+                                               std::span<const Vec3> vertex_normals)
+    : mesh_(mesh),
+      half_edges_(half_edges),
+      normals_(vertex_normals),
+      stamps_(vertex_normals.size(), 0),
+      states_(vertex_normals.size()),
+      keys_(vertex_normals.size()),
+      from_(vertex_normals.size()),
+      x_axes_(vertex_normals.size()),
+      places_(vertex_normals.size()) {}
+
+template <class Visit>
+void DiscreteExponentialMap::for_each_neighbour(Index vertex, Visit&& visit) const {
+  const Index first = half_edges_.outgoing(vertex);
+  Index h = first;
+  Index last = kNone;
+  do {
+    visit(half_edges_.head(h));
+    last = h;
+    h = half_edges_.ccw(h);
+  } while (h >= 0 && h != first);
+  if (h < 0) visit(half_edges_.tail(HalfEdges::previous(last)));
+}
+
+void DiscreteExponentialMap::reach(Index vertex, const Vec2& place, double key, Index from) {
+  const auto i = static_cast<std::size_t>(vertex);
+  if (stamps_[i] == stamp_ && !(key < keys_[i])) return;
+  stamps_[i] = stamp_;
+  states_[i] = reached;
+  keys_[i] = key;
+  from_[i] = from;
+  places_[i] = place;
+  heap_.push_back({key, vertex});
+  std::push_heap(heap_.begin(), heap_.end());
+}
+
+// What the face of half-edge h, which leaves q, says when its other two vertices are settled: the
+// centre is unfolded from their distances; the direction divides theirs as the angle at the centre.
+bool DiscreteExponentialMap::unfold(Index h, Vec2& place) const {
+  const Index a = half_edges_.head(h);
+  const Index b = half_edges_.tail(HalfEdges::previous(h));
+  if (!is_settled(a) || !is_settled(b)) return false;
+  const Vec2& place_a = places_[static_cast<std::size_t>(a)];
+  const Vec2& place_b = places_[static_cast<std::size_t>(b)];
+  const double to_a = place_a.norm();
+  const double to_b = place_b.norm();
+  const Vec3 edge = mesh_.position(b) - mesh_.position(a);
+  const double e = edge.norm();
+  if (!(to_a > 0.0 && to_b > 0.0 && e > 0.0)) return false;
+  const Vec3 side = mesh_.position(half_edges_.tail(h)) - mesh_.position(a);
+  const double qx = side.dot(edge) / e;
+  const double qy = side.cross(edge).norm() / e;
+  const double sx = (to_a * to_a - to_b * to_b + e * e) / (2.0 * e);
+  const double square = to_a * to_a - sx * sx;
+  if (!(square > 0.0)) return false;
+  const double sy = std::sqrt(square);
+  const double crossed = sx + (qx - sx) * (sy / (sy + qy));
+  constexpr double kRounding = 1e-9;
+  if (!(crossed >= -kRounding * e && crossed <= (1.0 + kRounding) * e)) return false;
+  const double angle_b = angle(Vec2(-sx, sy), Vec2(e - sx, sy));
+  const double angle_q = angle(Vec2(-sx, sy), Vec2(qx - sx, qy + sy));
+  const double between = angle(place_a, place_b);
+  // The centre lies beyond the edge as seen from the new vertex, unless two ways around it meet.
+  if (!(between < 0.0 && between > -2.0) || angle_b == 0.0) return false;
+  const double turn = between * std::clamp(angle_q / angle_b, 0.0, 1.0);
+  const double distance = std::hypot(qx - sx, qy + sy);
+  const Vec2 direction = place_a / to_a;
+  place = distance * Vec2(direction.x() * std::cos(turn) - direction.y() * std::sin(turn),
+                          direction.x() * std::sin(turn) + direction.y() * std::cos(turn));
+  return true;
+}
+
+void DiscreteExponentialMap::update(Index vertex, Index from) {
+  const auto i = static_cast<std::size_t>(vertex);
+  if (is_settled(vertex) || (stamps_[i] == stamp_ && from_[i] == kNone)) return;
+  const double least = keys_[static_cast<std::size_t>(from)];
+  Vec2 best = Vec2::Zero();
+  double distance = kInfinity;
+  const Index first = half_edges_.outgoing(vertex);
+  Index h = first;
+  do {
+    Vec2 place;
+    if (unfold(h, place) && place.norm() < distance) best = place, distance = place.norm();
+    h = half_edges_.ccw(h);
+  } while (h >= 0 && h != first);
+  if (distance == kInfinity) {
+    // No face says anything yet: the mean of what the settled neighbours say, by nearness. It waits
+    // for as long as the way along the edge takes, in case a face still does.
+    Vec2 sum = Vec2::Zero();
+    double weights = 0.0;
+    for_each_neighbour(vertex, [&](Index neighbour) {
+      if (!is_settled(neighbour)) return;
+      const auto n = static_cast<std::size_t>(neighbour);
+      const Vec3 edge = mesh_.position(vertex) - mesh_.position(neighbour);
+      const double weight = 1.0 / std::max(edge.norm(), 1e-300);
+      sum += weight * (places_[n] + laid(edge, x_axes_[n], normals_[n]));
+      weights += weight;
+      distance = std::min(distance, places_[n].norm() + edge.norm());
+    });
+    if (!(weights > 0.0)) return;
+    best = sum / weights;
+  }
+  reach(vertex, best, std::max(distance, least), from);
+}
+
+const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& point, double radius,
+                                                        const Vec3& x_hint) {
+  check_surface_point(mesh_, point, "centre");
+  if (!(radius > 0.0))
+    throw Error(ErrorKind::invalid_input, "exponential map: its radius must be above 0");
+  const SurfacePoint p = normalised(point);
+  if (++stamp_ == 0) {
+    std::fill(stamps_.begin(), stamps_.end(), 0u);
+    stamp_ = 1;
+  }
+  heap_.clear();
+  patch_.vertices.clear();
+  patch_.coordinates.clear();
+  patch_.origin = mesh_.position(p);
+  patch_.normal = interpolated_normal(mesh_, normals_, p);
+  patch_.x_axis = in_plane(x_hint, patch_.normal);
+  patch_.y_axis = patch_.normal.cross(patch_.x_axis);
+
+  const Site site = site_of(mesh_, p);
+  const auto reach_from_centre = [&](Index v) {
+    const Vec3 to = mesh_.position(v) - patch_.origin;
+    reach(v, laid(to, patch_.x_axis, patch_.normal), to.norm(), kNone);
+  };
+  if (site.kind == Site::Kind::vertex) {
+    reach_from_centre(site.index);
+    for_each_neighbour(site.index, reach_from_centre);
+  } else {
+    for (const Index v : mesh_.face(p.face)) reach_from_centre(v);
+    if (site.kind == Site::Kind::edge && half_edges_.has_twin(site.index))
+      reach_from_centre(half_edges_.tail(HalfEdges::previous(half_edges_.twin(site.index))));
+  }
+  while (!heap_.empty()) {
+    const Entry top = heap_.front();
+    std::pop_heap(heap_.begin(), heap_.end());
+    heap_.pop_back();
+    const auto i = static_cast<std::size_t>(top.vertex);
+    if (states_[i] == settled || top.key != keys_[i]) continue;
+    states_[i] = settled;
+    const auto parent = static_cast<std::size_t>(from_[i]);
+    x_axes_[i] = from_[i] == kNone ? turned(patch_.x_axis, patch_.normal, normals_[i])
+                                   : turned(x_axes_[parent], normals_[parent], normals_[i]);
+    if (places_[i].norm() > radius) continue;
+    patch_.vertices.push_back(top.vertex);
+    patch_.coordinates.push_back(places_[i]);
+    for_each_neighbour(top.vertex, [&](Index n) { update(n, top.vertex); });
+  }
+  return patch_;
+}
+
+}  // namespace mimicry::geodesic

@@ -1,0 +1,119 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <mimicry/base/error.h>
+#include <mimicry/geodesic/exponential_map.h>
+#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/shapes.h>
+
+#include "geodesic/support.h"
+
+namespace mimicry::geodesic {
+namespace {
+
+TEST(ExponentialMap, ExactOnAPlane) {
+  const TriangleMesh mesh = make_grid(10);
+  const HalfEdges edges(mesh);
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  DiscreteExponentialMap map(mesh, edges, normals);
+  Random random(1);
+  for (int i = 0; i < 30; ++i) {
+    const SurfacePoint p = test::random_point(mesh, random);
+    const ExponentialPatch& patch = map.compute(p, 0.5, Vec3(1, 2, 3));
+    std::size_t expected = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      expected += (mesh.position(v) - mesh.position(p)).norm() <= 0.5 - 1e-9;
+    EXPECT_EQ(patch.vertices.size(), expected);
+    for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+      const Vec3 d = mesh.position(patch.vertices[k]) - patch.origin;
+      ASSERT_LT((patch.coordinates[k] - Vec2(d.dot(patch.x_axis), d.dot(patch.y_axis))).norm(),
+                1e-12);
+    }
+  }
+}
+
+// Largest distance between the map and exact polar coordinates on a sphere, within `radius`.
+double sphere_error(int n, double radius) {
+  const TriangleMesh mesh = make_sphere(n);
+  const HalfEdges edges(mesh);
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  DiscreteExponentialMap map(mesh, edges, normals);
+  Random random(2);
+  double worst = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    const auto v =
+        static_cast<Index>(random.below(static_cast<std::uint32_t>(mesh.vertex_count())));
+    const ExponentialPatch& patch = map.compute(vertex_point(edges, v), radius);
+    const Vec3 c = mesh.position(v);
+    for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+      const Vec3& x = mesh.position(patch.vertices[k]);
+      const Vec3 side = x - x.dot(c) * c;
+      if (side.norm() < 1e-9) continue;
+      const Vec3 exact = test::angle_between(c, x) * side.normalized();
+      const Vec2 flat(exact.dot(patch.x_axis), exact.dot(patch.y_axis));
+      worst = std::max(worst, (patch.coordinates[k] - flat).norm());
+    }
+  }
+  return worst;
+}
+
+TEST(ExponentialMap, NearExactPolarCoordinatesOnASphere) {
+  // A patch of radius 1 reaches nearly a third of the way around.
+  const double coarse = sphere_error(8, 1.0);
+  const double fine = sphere_error(32, 1.0);
+  EXPECT_LT(coarse, 0.04);
+  EXPECT_LT(fine, 0.45 * coarse);
+}
+
+TEST(ExponentialMap, NearTheUnrolledCylinder) {
+  const TriangleMesh mesh = make_cylinder(10);
+  const HalfEdges edges(mesh);
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  DiscreteExponentialMap map(mesh, edges, normals);
+  Index v = 0;  // on the side, half way up
+  for (Index w = 0; w < mesh.vertex_count(); ++w) {
+    const auto off = [&](Index u) {
+      const Vec3& p = mesh.position(u);
+      return std::abs(p.y()) + std::abs(std::hypot(p.x(), p.z()) - kCylinderRadius);
+    };
+    if (off(w) < off(v)) v = w;
+  }
+  const Vec3 c = mesh.position(v);
+  // Up to a quarter around: past a right angle of the normals.
+  const ExponentialPatch& patch = map.compute(vertex_point(edges, v), 0.9, Vec3::UnitY());
+  EXPECT_LT((patch.x_axis - Vec3::UnitY()).norm(), 1e-6);
+  EXPECT_GT(patch.vertices.size(), 100u);
+  for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+    const Vec3& x = mesh.position(patch.vertices[k]);
+    const double turn = std::atan2(x.z(), x.x()) - std::atan2(c.z(), c.x());
+    const double around = kCylinderRadius * std::remainder(turn, 2 * std::numbers::pi);
+    const Vec3 east = Vec3(-c.z(), 0, c.x()).normalized();
+    const Vec2 exact(x.y() - c.y(), around * east.dot(patch.y_axis));
+    // Polygons cut arcs short by a factor of 1 - (pi / 60)^2 / 6.
+    ASSERT_LT((patch.coordinates[k] - exact).norm(), 0.01) << patch.vertices[k];
+  }
+}
+
+TEST(ExponentialMap, NastyMeshesGiveNoNaNAndBadInputIsNamed) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    const TriangleMesh mesh = test::nasty_mesh(random);
+    const HalfEdges edges(mesh);
+    std::vector<Vec3> normals = angle_weighted_normals(mesh);
+    DiscreteExponentialMap map(mesh, edges, normals);
+    const ExponentialPatch& patch = map.compute(test::random_point(mesh, random), 2.0);
+    for (const Vec2& x : patch.coordinates) ASSERT_TRUE(x.allFinite()) << "seed " << seed;
+  }
+  const TriangleMesh mesh = make_grid(2);
+  const HalfEdges edges(mesh);
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  DiscreteExponentialMap map(mesh, edges, normals);
+  EXPECT_THROW(map.compute({0, Vec3(1, 1, 0)}, 1.0), Error);
+  EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, 0.0), Error);
+  EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, std::nan("")), Error);
+}
+
+}  // namespace
+}  // namespace mimicry::geodesic
