@@ -276,7 +276,8 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::string name = "source " + std::to_string(i);
     check_surface_point(mesh, sources[i].point, name);
-    if (!(sources[i].distance >= 0.0 && sources[i].distance < 1e70))
+    if (!std::isfinite(sources[i].distance) || sources[i].distance < 0.0 ||
+        sources[i].distance >= 1e70)
       throw Error(ErrorKind::invalid_input, name + ": its distance must be at least 0 and finite");
     sources[i].point = normalised(sources[i].point);
   }

@@ -148,7 +148,7 @@ void DiscreteExponentialMap::update(Index vertex, Index from) {
 const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& point, double radius,
                                                         const Vec3& x_hint) {
   check_surface_point(mesh_, point, "centre");
-  if (!(radius > 0.0))
+  if (std::isnan(radius) || radius <= 0.0)
     throw Error(ErrorKind::invalid_input, "exponential map: its radius must be above 0");
   const SurfacePoint p = normalised(point);
   if (++stamp_ == 0) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
 #include <mimicry/geodesic/site.h>
 #include <mimicry/geodesic/straightest.h>
 
@@ -275,9 +276,9 @@ Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
                         const SurfacePoint& from, const Vec3& direction, double length,
                         std::vector<Crossing>* crossings) {
   check_surface_point(mesh, from, "start");
-  if (!(direction.cwiseAbs().maxCoeff() < 1e150))
+  if (!is_finite(direction) || direction.cwiseAbs().maxCoeff() >= 1e150)
     throw Error(ErrorKind::invalid_input, "straightest geodesic: its direction must be finite");
-  if (!(length >= 0.0 && length < kInfinity))
+  if (!std::isfinite(length) || length < 0.0)
     throw Error(ErrorKind::invalid_input, "straightest geodesic: length " + std::to_string(length) +
                                               "; it must be finite and at least 0");
   return Walk(mesh, half_edges, crossings).run(normalised(from), direction, length);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
 
 namespace mimicry::geodesic {
 
@@ -18,7 +19,7 @@ SurfaceFrames::SurfaceFrames(const TriangleMesh& mesh, const HalfEdges& half_edg
   const auto count = static_cast<std::size_t>(half_edges.count());
   for (std::size_t v = 0; v < vertices; ++v)
     // Squares of squares of lengths must neither overflow nor vanish.
-    if (!(mesh.positions()[v].cwiseAbs().maxCoeff() < 1e70))
+    if (!is_finite(mesh.positions()[v]) || mesh.positions()[v].cwiseAbs().maxCoeff() >= 1e70)
       throw Error(ErrorKind::invalid_input, "mesh: vertex " + std::to_string(v) +
                                                 " is not finite or larger than 1e70; repair it");
   size = diagonal(mesh);

@@ -1,8 +1,7 @@
-#include <mimicry/io/curves_glb.h>
-
 #include <cmath>
 #include <deque>
 
+#include <mimicry/io/curves_glb.h>
 #include <mimicry/io/tube_mesh.h>
 
 #include "io/glb.h"
@@ -24,7 +23,8 @@ void append(TubeMesh& all, const TubeMesh& part) {
   std::vector<Vec3> positions(all.mesh.positions().begin(), all.mesh.positions().end());
   std::vector<Face> faces(all.mesh.faces().begin(), all.mesh.faces().end());
   positions.insert(positions.end(), part.mesh.positions().begin(), part.mesh.positions().end());
-  for (const Face& f : part.mesh.faces()) faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  for (const Face& f : part.mesh.faces())
+    faces.push_back({f[0] + first, f[1] + first, f[2] + first});
   all.mesh = TriangleMesh(std::move(positions), std::move(faces));
   all.normals.insert(all.normals.end(), part.normals.begin(), part.normals.end());
 }

@@ -166,7 +166,7 @@ CurveSet read_curves_json(std::string_view bytes, std::string_view name, const T
   const std::string file(name);
   Json document;
   try {
-    document = Json::parse(bytes.begin(), bytes.end());
+    document = parse_json(bytes);
   } catch (const Json::parse_error& error) {
     json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception& error) {

@@ -14,6 +14,7 @@
 #include <mimicry/base/error.h>
 
 #include "io/binary.h"
+#include "io/json.h"
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
@@ -111,7 +112,7 @@ class GltfReader {
              bool has_binary_chunk)
       : mesh_(mesh), binary_chunk_(binary_chunk), has_binary_chunk_(has_binary_chunk) {
     try {
-      root_ = Json::parse(text);
+      root_ = parse_json(text);
     } catch (const Json::parse_error& error) {
       fail_at_byte(mesh_.name(), error.byte,
                    "the JSON of the file is broken or cut short; export it again");

@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/float_traps.h>
 #include <mimicry/base/types.h>
 #include <mimicry/mesh/surface_point.h>
 
@@ -16,6 +19,13 @@ namespace mimicry::io {
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
+
+/// A number beyond the range of a double overflows in the parser before it is refused.
+template <class... Callback>
+Json parse_json(std::string_view bytes, Callback&&... callback) {
+  const FloatTrapMask mask;
+  return Json::parse(bytes.begin(), bytes.end(), std::forward<Callback>(callback)...);
+}
 
 [[noreturn]] inline void json_fail(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::invalid_input, where + ": " + what);

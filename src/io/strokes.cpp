@@ -162,7 +162,7 @@ void read_strokes(std::string_view bytes, std::string_view name,
     return true;
   };
   try {
-    const Json rest = Json::parse(bytes.begin(), bytes.end(), event);
+    const Json rest = parse_json(bytes, event);
   } catch (const Json::parse_error& error) {
     throw Error(ErrorKind::invalid_input, header.name + ": stroke " + std::to_string(count) +
                                               ": the text ends early or is not JSON at byte " +

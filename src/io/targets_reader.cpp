@@ -68,7 +68,7 @@ study::TargetSet read_targets(std::string_view bytes, std::string_view name) {
   const std::string file(name);
   study::TargetSet set;
   try {
-    const Json root = Json::parse(bytes.begin(), bytes.end());
+    const Json root = parse_json(bytes);
     const Json& shapes = array(root, "shapes", file);
     for (std::size_t i = 0; i < shapes.size(); ++i)
       set.shapes.push_back(read_shape(shapes[i], file + ": shape " + std::to_string(i)));
