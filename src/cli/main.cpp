@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   add_simulate(app, status);
   add_project(app, status);
   add_render(app, status);
+  add_geodesic(app, status);
   try {
     app.parse(argc, argv);
     return status;

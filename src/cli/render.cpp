@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -7,6 +9,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/curves.h>
+#include <mimicry/io/number.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/render/figure.h>
 #include <mimicry/render/palette.h>
@@ -26,6 +29,8 @@ struct Arguments {
   std::string out = "out/picture.png";
   std::vector<std::string> techniques;
   std::string stroke;  // only this one
+  std::string distances;
+  double iso_spacing = 0.0;
   bool side_by_side = false;
   bool intended = false;
   std::optional<double> azimuth;
@@ -69,6 +74,34 @@ render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh
   tube.color = kIntendedColor;
   tube.label = "intended";
   return tube;
+}
+
+// The column of a `vertex,distance` file; what is unreachable gets the largest distance, so that no
+// line runs through it.
+std::vector<double> read_distances(const std::string& path, Index vertices) {
+  const std::string bytes = files::read_file(path);
+  std::vector<double> distances(static_cast<std::size_t>(vertices), kInfinity);
+  double largest = 0.0;
+  std::size_t line_number = 1;
+  for (std::size_t start = bytes.find('\n');
+       start != std::string::npos && start + 1 < bytes.size();) {
+    ++line_number;
+    const std::size_t end = std::min(bytes.find('\n', start + 1), bytes.size());
+    const std::string line = bytes.substr(start + 1, end - start - 1);
+    const std::size_t comma = line.find(',');
+    const auto vertex = io::parse_integer(line.substr(0, comma));
+    const auto distance =
+        comma == std::string::npos ? std::nullopt : io::parse_double(line.substr(comma + 1));
+    if (!vertex || *vertex < 0 || *vertex >= vertices || !distance || std::isnan(*distance))
+      throw Error(ErrorKind::invalid_input,
+                  name_of(path) + ": line " + std::to_string(line_number) +
+                      ": is not vertex,distance of this mesh; write it with mimicry geodesic");
+    distances[static_cast<std::size_t>(*vertex)] = *distance;
+    if (std::isfinite(*distance)) largest = std::max(largest, *distance);
+    start = end;
+  }
+  for (double& d : distances) d = std::min(d, largest);
+  return distances;
 }
 
 void add_curve(render::Scene& scene, const io::CurveRecord& record, const TriangleMesh& mesh,
@@ -116,6 +149,11 @@ void run(const Arguments& args) {
   render::Scene scene;
   scene.up = args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY();
   scene.surfaces.emplace_back().mesh = &named.mesh;
+  if (!args.distances.empty()) {
+    render::Surface& surface = scene.surfaces.front();
+    surface.iso_values = read_distances(args.distances, named.mesh.vertex_count());
+    surface.iso_spacing = args.iso_spacing > 0.0 ? args.iso_spacing : 0.04 * size;
+  }
   std::vector<stroke::Stroke> strokes;
   if (!args.strokes.empty())
     strokes = io::read_strokes(files::read_file(args.strokes), name_of(args.strokes));
@@ -170,6 +208,13 @@ void add_render(CLI::App& app, int&) {
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("--strokes", args->strokes, "A mimicry-strokes file, drawn in black");
   command->add_option("--curves", args->curves, "A mimicry-curves file, one colour a technique");
+  command->add_option(
+      "--distances", args->distances,
+      "A vertex,distance file (mimicry geodesic), shown by lines of equal distance");
+  command
+      ->add_option("--iso-spacing", args->iso_spacing,
+                   "Between these lines, mesh units (default 4 % of the diagonal)")
+      ->check(CLI::PositiveNumber);
   command->add_option("-t,--techniques", args->techniques, "Only curves of these")->delimiter(',');
   command->add_option("--stroke", args->stroke, "Only the stroke of this id");
   command->add_flag("--intended", args->intended,

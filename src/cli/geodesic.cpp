@@ -1,0 +1,153 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/geodesic/exact.h>
+#include <mimicry/geodesic/site.h>
+#include <mimicry/io/number.h>
+
+#include "cli/commands.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::vector<std::string> from;
+  std::string to;
+  std::string out;
+  double radius = kInfinity;
+  bool allow_nonmanifold = false;
+};
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+  throw Error(ErrorKind::invalid_input, "point '" + text + "': " + why +
+                                            "; write v17 (a vertex) or 3,0.2,0.3,0.5 (a face and "
+                                            "its barycentric coordinates)");
+}
+
+// v17, or face,b0,b1,b2.
+SurfacePoint parse_point(const std::string& text, const spatial::Target& target) {
+  if (text.starts_with('v')) {
+    const auto vertex = io::parse_integer(text.substr(1));
+    if (!vertex || *vertex < 0 || *vertex >= target.mesh().vertex_count())
+      refuse(text,
+             "the mesh has vertices 0 to " + std::to_string(target.mesh().vertex_count() - 1));
+    const auto v = static_cast<Index>(*vertex);
+    const SurfacePoint p = geodesic::vertex_point(target.half_edges(), v);
+    if (p.face == kNone) refuse(text, "no face has this vertex");
+    return p;
+  }
+  std::vector<double> numbers;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    const auto value = io::parse_double(text.substr(start, comma - start));
+    if (!value) refuse(text, "it is not a point");
+    numbers.push_back(*value);
+    start = comma + 1;
+  }
+  if (numbers.size() != 4) refuse(text, "it is not a point");
+  if (!std::isfinite(numbers[0]) || numbers[0] != std::floor(numbers[0]) || numbers[0] < 0 ||
+      numbers[0] >= target.mesh().face_count())
+    refuse(text, "the mesh has faces 0 to " + std::to_string(target.mesh().face_count() - 1));
+  const SurfacePoint p{static_cast<Index>(numbers[0]), Vec3(numbers[1], numbers[2], numbers[3])};
+  geodesic::check_surface_point(target.mesh(), p, "point '" + text + "'");
+  return p;
+}
+
+nlohmann::ordered_json point_json(const SurfacePoint& p, const TriangleMesh& mesh) {
+  const Vec3 x = mesh.position(p);
+  return {{"face", p.face},
+          {"bary", {p.bary[0], p.bary[1], p.bary[2]}},
+          {"position", {x[0], x[1], x[2]}}};
+}
+
+std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesic::Source>& sources,
+                      const SurfacePoint& to, const TriangleMesh& mesh) {
+  nlohmann::ordered_json crossings = nlohmann::ordered_json::array();
+  for (const Crossing& c : path.crossings) {
+    const Face& f = mesh.face(HalfEdges::face(c.half_edge));
+    const auto k = static_cast<std::size_t>(HalfEdges::corner(c.half_edge));
+    const Vec3 x = position(mesh, c);
+    crossings.push_back({{"half_edge", c.half_edge},
+                         {"edge", {f[k], f[(k + 1) % 3]}},
+                         {"t", c.t},
+                         {"position", {x[0], x[1], x[2]}}});
+  }
+  const nlohmann::ordered_json document = {
+      {"format", "mimicry-path"},   {"version", 1},
+      {"length", path.length},      {"from", point_json(sources[path.source].point, mesh)},
+      {"to", point_json(to, mesh)}, {"crossings", crossings}};
+  return document.dump(1) + "\n";
+}
+
+std::string distances_csv(const geodesic::ExactGeodesics& geodesics, Index vertices) {
+  std::string out = "vertex,distance\n";
+  for (Index v = 0; v < vertices; ++v) {
+    out += std::to_string(v) + ',';
+    io::append_double(out, geodesics.distance(v));
+    out += '\n';
+  }
+  return out;
+}
+
+void run(const Arguments& args, int& status) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  std::vector<geodesic::Source> sources;
+  for (const std::string& text : args.from) sources.push_back({parse_point(text, target)});
+  std::optional<SurfacePoint> to;
+  if (!args.to.empty()) to = parse_point(args.to, target);
+
+  geodesic::ExactGeodesics geodesics(target.mesh(), target.half_edges());
+  geodesic::ExactOptions options;
+  options.radius = args.radius;
+  if (to) options.targets = {&*to, 1};
+  geodesics.compute(sources, options);
+  if (!to) {
+    files::write_file_atomically(args.out, distances_csv(geodesics, named.mesh.vertex_count()));
+    std::printf("%s: %d distances\n", args.out.c_str(), named.mesh.vertex_count());
+    return;
+  }
+  const geodesic::ExactPath path = geodesics.path_to(*to);
+  if (!path.found) {
+    std::printf("no path: the surface does not join the points%s\n",
+                std::isfinite(args.radius) ? " within the radius" : "");
+    status = kPartly;
+    return;
+  }
+  files::write_file_atomically(args.out, path_json(path, sources, *to, target.mesh()));
+  std::printf("%s: length %s, %zu crossings\n", args.out.c_str(),
+              io::format_double(path.length).c_str(), path.crossings.size());
+}
+
+}  // namespace
+
+void add_geodesic(CLI::App& app, int& status) {
+  auto* command =
+      app.add_subcommand("geodesic", "Exact shortest paths and distances on the surface");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command
+      ->add_option("--from", args->from,
+                   "Where from: v17 (a vertex) or face,b0,b1,b2; several: the nearest counts")
+      ->required();
+  command->add_option("--to", args->to,
+                      "Where to: a path is written; without it all distances are");
+  command->add_option("--radius", args->radius, "Look no farther, mesh units")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--out", args->out, "path.json (with --to) or distances.csv")->required();
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces; they are not crossed");
+  command->callback([args, &status] { run(*args, status); });
+}
+
+}  // namespace mimicry::cli
