@@ -32,7 +32,7 @@ void ExactGeodesics::State::push(double key, Index item) {
 bool ExactGeodesics::State::reach_vertex(Index v, double distance, Index from) {
   const auto i = static_cast<std::size_t>(v);
   // Only what rounding cannot explain is nearer, or two vertices could improve each other forever.
-  if (!(distance < distances[i] * (1.0 - 1e-15))) return false;
+  if (!(distance < distances[i] * (1.0 - 1e-14) - 1e-15 * surface.size)) return false;
   distances[i] = distance;
   arrived_from[i] = from;
   watched_changed = watched_changed || is_watched[i];
@@ -120,11 +120,10 @@ void ExactGeodesics::State::spread(const Fan& fan) {
 
   // Part of an edge that leaves the face at `tail` and runs along unit vector e, between the rays
   // that meet it at `begin` and `end`.
-  const auto pass_on = [&](Index h, const Vec2& tail, double begin, double end,
+  const auto pass_on = [&](Index h, const Vec2& tail, const Vec2& e, double begin, double end,
                            const Vec2& left_ray, const Vec2& right_ray) {
     const double length = frame(h).length;
     if (!(length > 0.0)) return;
-    const Vec2 e = h == left ? Vec2(-c / length) : Vec2((c - tail) / length);
     const double x = e.dot(s - tail);
     const double y = cross(e, s - tail);
     // A source that all but lies on the edge sees a wide fan through a narrow window: its rays go
@@ -146,17 +145,22 @@ void ExactGeodesics::State::spread(const Fan& fan) {
       return run > 0.0 ? std::clamp(cross(s, ray) / run, 0.0, 1.0) : 1.0;
     };
     const double length = frame(left).length;
-    pass_on(left, c, reaches_right ? 0.0 : length * (1.0 - hit(fan.right)),
-            length * (1.0 - hit(fan.left)), fan.left, reaches_right ? to_apex : fan.right);
+    if (length > 0.0)
+      pass_on(left, c, -c / length, reaches_right ? 0.0 : length * (1.0 - hit(fan.right)),
+              length * (1.0 - hit(fan.left)), fan.left, reaches_right ? to_apex : fan.right);
   }
   if (reaches_right) {
     const Vec2 head(f.length, 0.0);
+    const EdgeFrame& side = frame(right);
+    // From the edge's own frame: the difference of apex and head loses a short edge's direction.
+    const Vec2 e = f.length > 0.0 ? Vec2(Vec2(-side.apex_x, side.apex_y) / f.length)
+                                  : Vec2((c - head).normalized());
     const auto hit = [&](const Vec2& ray) {
-      const double run = cross(ray, c - head);
+      const double run = side.length * cross(ray, e);
       return run > 0.0 ? std::clamp(cross(ray, s - head) / run, 0.0, 1.0) : 1.0;
     };
-    const double length = frame(right).length;
-    pass_on(right, head, length * hit(fan.right), reaches_left ? length : length * hit(fan.left),
+    const double length = side.length;
+    pass_on(right, head, e, length * hit(fan.right), reaches_left ? length : length * hit(fan.left),
             reaches_left ? to_apex : fan.left, fan.right);
   }
 }
@@ -277,7 +281,7 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
     const std::string name = "source " + std::to_string(i);
     check_surface_point(mesh, sources[i].point, name);
     if (!std::isfinite(sources[i].distance) || sources[i].distance < 0.0 ||
-        sources[i].distance >= 1e70)
+        sources[i].distance > 1e70)
       throw Error(ErrorKind::invalid_input, name + ": its distance must be at least 0 and finite");
     sources[i].point = normalised(sources[i].point);
   }
@@ -305,7 +309,7 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
 
   const std::size_t most = options.most_windows != 0
                                ? options.most_windows
-                               : 4000 * static_cast<std::size_t>(mesh.face_count()) + 100000;
+                               : 500 * static_cast<std::size_t>(mesh.face_count()) + 10000;
   // An upper bound of the farthest target's distance; the search ends when it is past.
   double stop = options.radius;
   const auto farthest_target = [&] {

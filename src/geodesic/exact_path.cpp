@@ -32,7 +32,7 @@ void ExactGeodesics::State::best_window(Index h, const Vec2& p, Step& best) cons
   }
 }
 
-Step ExactGeodesics::State::best_step(const SurfacePoint& p, Index entered) const {
+Step ExactGeodesics::State::best_step(const SurfacePoint& p, Index entered, double below) const {
   Step best;
   const Vec3 position = mesh.position(p);
   for (int k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ Step ExactGeodesics::State::best_step(const SurfacePoint& p, Index entered) cons
   }
   for (int k = 0; k < 3; ++k) {
     const Index v = mesh.face(p.face)[static_cast<std::size_t>(k)];
-    if (at(v) == kInfinity) continue;
+    if (!(at(v) < below)) continue;
     const double d = at(v) + (position - mesh.corner(p.face, k)).norm();
     if (d <= best.distance + kSame * d) best = {Step::Kind::vertex, d, v, 0.0};
   }
@@ -61,10 +61,11 @@ double ExactGeodesics::State::distance_at(const SurfacePoint& p) const {
   if (site.kind == Site::Kind::vertex) {
     d = at(site.index);
   } else {
-    d = best_step(p, kNone).distance;
+    d = best_step(p, kNone, kInfinity).distance;
     if (site.kind == Site::Kind::edge && half_edges.has_twin(site.index)) {
       const Index twin = half_edges.twin(site.index);
-      d = std::min(d, best_step(surface_point(Crossing{twin, 1.0 - site.t}), twin).distance);
+      d = std::min(
+          d, best_step(surface_point(Crossing{twin, 1.0 - site.t}), twin, kInfinity).distance);
     }
   }
   return d <= known ? d : kInfinity;
@@ -105,17 +106,20 @@ ExactPath ExactGeodesics::State::path_to(const SurfacePoint& target) const {
     return best;
   };
 
+  // Vertices are passed nearer and nearer: those that all but coincide could lead back and forth.
+  double below = kInfinity;
   const Site site = site_of(mesh, start);
   Step step;
   if (site.kind == Site::Kind::vertex) {
+    below = at(site.index);
     step = from_vertex(site.index);
   } else if (site.kind == Site::Kind::face) {
-    step = best_step(start, kNone);
+    step = best_step(start, kNone, kInfinity);
   } else {
-    step = best_step(surface_point(Crossing{site.index, site.t}), site.index);
+    step = best_step(surface_point(Crossing{site.index, site.t}), site.index, kInfinity);
     const Index twin = half_edges.twin(site.index);
     if (twin >= 0) {
-      const Step other = best_step(surface_point(Crossing{twin, 1.0 - site.t}), twin);
+      const Step other = best_step(surface_point(Crossing{twin, 1.0 - site.t}), twin, kInfinity);
       if (other.distance < step.distance) step = other;
     }
   }
@@ -133,15 +137,19 @@ ExactPath ExactGeodesics::State::path_to(const SurfacePoint& target) const {
       const double length = frame(step.index).length;
       const double t = std::clamp(step.x / length, 0.0, 1.0);
       constexpr double kAtEnd = 1e-12;
-      if (t > kAtEnd && t < 1.0 - kAtEnd) {
+      const Index end = t <= kAtEnd         ? half_edges.tail(step.index)
+                        : t >= 1.0 - kAtEnd ? half_edges.head(step.index)
+                                            : kNone;
+      if (end == kNone || !(at(end) < below)) {
         const Index twin = half_edges.twin(step.index);
         add({step.index, t});
-        step = best_step(surface_point(Crossing{twin, 1.0 - t}), twin);
+        step = best_step(surface_point(Crossing{twin, 1.0 - t}), twin, below);
         continue;
       }
-      step.index = t <= kAtEnd ? half_edges.tail(step.index) : half_edges.head(step.index);
+      step.index = end;
     }
     const Index v = step.index;
+    below = at(v);
     step = from_vertex(v);
     if (step.kind != Step::Kind::source)
       add({half_edges.outgoing(v), 0.0});

@@ -82,9 +82,9 @@ struct ExactGeodesics::State {
 
   /// Position in the frame of half-edge h of a point of its face.
   Vec2 in_frame(Index h, const SurfacePoint& p) const;
-  /// The best step from p, which lies in the face; of windows those over edge `entered` are left
-  /// out.
-  Step best_step(const SurfacePoint& p, Index entered) const;
+  /// The best step from p, which lies in the face: over any edge but `entered`, or to a vertex with
+  /// a distance below `below`.
+  Step best_step(const SurfacePoint& p, Index entered, double below) const;
   void best_window(Index h, const Vec2& p, Step& best) const;
   double distance_at(const SurfacePoint& p) const;
   ExactPath path_to(const SurfacePoint& p) const;

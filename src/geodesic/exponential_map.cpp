@@ -121,8 +121,12 @@ void DiscreteExponentialMap::update(Index vertex, Index from) {
   const Index first = half_edges_.outgoing(vertex);
   Index h = first;
   do {
+    // Faces without the newly settled vertex have said what they know.
+    const bool is_news =
+        half_edges_.head(h) == from || half_edges_.tail(HalfEdges::previous(h)) == from;
     Vec2 place;
-    if (unfold(h, place) && place.norm() < distance) best = place, distance = place.norm();
+    if (is_news && unfold(h, place) && place.norm() < distance)
+      best = place, distance = place.norm();
     h = half_edges_.ccw(h);
   } while (h >= 0 && h != first);
   if (distance == kInfinity) {

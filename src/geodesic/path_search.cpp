@@ -97,7 +97,8 @@ void PathSearch::expand(Index number) {
   const double cx = to_apex.dot(along);
   const double left_length = to_apex.norm();
   const double right_length = (c - b).norm();
-  const double cy = std::max((to_apex - cx * along).norm(),
+  // From the shorter side: the longer one nearly along the edge leaves a height of rounding.
+  const double cy = std::max(along.cross(left_length < right_length ? to_apex : Vec3(c - b)).norm(),
                              1e-13 * std::max({w.length, left_length, right_length}));
   const double qx = cx - w.x;
   const double qy = cy + w.y;
@@ -139,7 +140,7 @@ void PathSearch::expand(Index number) {
     };
     const double u0 = reaches_left ? 1.0 : hit(w.begin);
     const double u1 = hit(w.end);
-    const double ex = (cx - w.length) / right_length;
+    const double ex = along.dot(c - b) / right_length;
     const double ey = cy / right_length;
     add_window(right, right_length, right_length * u1, right_length * u0,
                ex * (w.x - w.length) - ey * w.y, -ex * w.y - ey * (w.x - w.length), w.sigma,

@@ -28,7 +28,7 @@ void check_surface_point(const TriangleMesh& mesh, const SurfacePoint& p, std::s
     fail("face " + std::to_string(p.face) + " is not among the mesh's " +
          std::to_string(mesh.face_count()) + " faces");
   for (int k = 0; k < 3; ++k)
-    if (!std::isfinite(p.bary[k]) || p.bary[k] > 2.0 || p.bary[k] < -kTolerance)
+    if (!std::isfinite(p.bary[k]) || p.bary[k] < -kTolerance || p.bary[k] > 2.0)
       fail("barycentric coordinate " + std::to_string(k) + " is " + std::to_string(p.bary[k]) +
            "; they must be at least 0");
   if (std::abs(p.bary.sum() - 1.0) > kTolerance)

@@ -3,7 +3,6 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 #include <mimicry/geodesic/site.h>
 #include <mimicry/geodesic/straightest.h>
 
@@ -270,13 +269,18 @@ Trace Walk::run(const SurfacePoint& from, const Vec3& direction, double length) 
   return stop(TraceStop::complete, flat);
 }
 
+// Neither is its square's sum with two others infinite.
+bool is_finite(double x) {
+  return std::isfinite(x) && std::abs(x) < 1e150;
+}
+
 }  // namespace
 
 Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
                         const SurfacePoint& from, const Vec3& direction, double length,
                         std::vector<Crossing>* crossings) {
   check_surface_point(mesh, from, "start");
-  if (!is_finite(direction) || direction.cwiseAbs().maxCoeff() >= 1e150)
+  if (!is_finite(direction.x()) || !is_finite(direction.y()) || !is_finite(direction.z()))
     throw Error(ErrorKind::invalid_input, "straightest geodesic: its direction must be finite");
   if (!std::isfinite(length) || length < 0.0)
     throw Error(ErrorKind::invalid_input, "straightest geodesic: length " + std::to_string(length) +

@@ -6,7 +6,6 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 
 namespace mimicry::geodesic {
 
@@ -19,21 +18,29 @@ SurfaceFrames::SurfaceFrames(const TriangleMesh& mesh, const HalfEdges& half_edg
   const auto count = static_cast<std::size_t>(half_edges.count());
   for (std::size_t v = 0; v < vertices; ++v)
     // Squares of squares of lengths must neither overflow nor vanish.
-    if (!is_finite(mesh.positions()[v]) || mesh.positions()[v].cwiseAbs().maxCoeff() >= 1e70)
-      throw Error(ErrorKind::invalid_input, "mesh: vertex " + std::to_string(v) +
-                                                " is not finite or larger than 1e70; repair it");
+    for (const double x : mesh.positions()[v])
+      if (!std::isfinite(x) || std::abs(x) > 1e70)
+        throw Error(ErrorKind::invalid_input, "mesh: vertex " + std::to_string(v) +
+                                                  " is not finite or larger than 1e70; repair it");
   size = diagonal(mesh);
 
   frames.resize(count);
   corner_angles.resize(count);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const double area = mesh.area_vector(f).norm();
     double longest = 0.0;
+    int shortest = 0;
     for (int k = 0; k < 3; ++k) {
       EdgeFrame& frame = frames[static_cast<std::size_t>(3 * f + k)];
       frame.length = (mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k)).norm();
       longest = std::max(longest, frame.length);
+      if (frame.length < frames[static_cast<std::size_t>(3 * f + shortest)].length) shortest = k;
     }
+    // From the shortest edge: of two long sides that are nearly parallel the product is all
+    // rounding.
+    const Vec3& corner = mesh.corner(f, shortest);
+    const double area = (mesh.corner(f, (shortest + 1) % 3) - corner)
+                            .cross(mesh.corner(f, (shortest + 2) % 3) - corner)
+                            .norm();
     for (int k = 0; k < 3; ++k) {
       EdgeFrame& frame = frames[static_cast<std::size_t>(3 * f + k)];
       const Vec3 along = mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k);

@@ -10,8 +10,8 @@ namespace {
 // Windows narrower than this part of their edge are dropped: their neighbours' distances, taken
 // around the corner, differ from theirs by the square of it.
 constexpr double kLeastWidth = 1e-11;
-// Distances closer than this, relatively, are equal: a few roundings.
-constexpr double kTie = 1e-13;
+// Distances closer than this, relative to themselves and the edge, are equal: some roundings.
+constexpr double kTie = 1e-12;
 
 struct Segment {
   double begin;
@@ -148,7 +148,7 @@ void WindowLists::insert(Index edge, double edge_length, const Window& window,
     Segments segments;
     if (older.begin < a - least) segments.add(older.begin, a, false);
     if (b - a > least) {
-      const double scale = std::max(older.distance(a), window.distance(a));
+      const double scale = std::max(older.distance(a), window.distance(a)) + edge_length;
       Comparison{window, older, least, kTie * scale}.split(a, b, segments);
     } else {
       segments.add(a, b, false);

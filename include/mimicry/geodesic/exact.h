@@ -20,8 +20,8 @@ struct ExactOptions {
   double radius = kInfinity;
   /// Stop as soon as the distances of these are known; empty: all points.
   std::span<const SurfacePoint> targets = {};
-  /// Windows made before the search gives up, 0 for 4,000 for each face: a bound for meshes made to
-  /// break it. Then `exact` is false and distances are upper bounds.
+  /// Windows made before the search gives up, 0 for 10,000 and 500 for each face: a bound for
+  /// meshes made to break it. Then `exact` is false and distances are upper bounds.
   std::size_t most_windows = 0;
 };
 
