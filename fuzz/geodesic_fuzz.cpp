@@ -1,0 +1,107 @@
+// A mesh of small whole coordinates, so that faces without area, vertices on top of each other and
+// points on lines are the rule, and a pair of points on it. Nothing may crash, hang or give a
+// number that is none; a path is as long as it says and no shorter than the straight line.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include <mimicry/geodesic/exact.h>
+#include <mimicry/geodesic/exponential_map.h>
+#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/straightest.h>
+#include <mimicry/mesh/normals.h>
+
+namespace {
+
+using namespace mimicry;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+struct Bytes {
+  const std::uint8_t* data;
+  std::size_t size;
+  int next() {
+    if (size == 0) return 0;
+    --size;
+    return *data++;
+  }
+};
+
+SurfacePoint point(Bytes& bytes, const TriangleMesh& mesh) {
+  SurfacePoint p{static_cast<Index>(bytes.next() % mesh.face_count()), Vec3::Zero()};
+  Vec3 weights(bytes.next() % 5, bytes.next() % 5, bytes.next() % 5);
+  if (weights.sum() == 0.0) weights[0] = 1.0;
+  p.bary = weights / weights.sum();
+  return p;
+}
+
+double polyline(const TriangleMesh& mesh, const SurfacePoint& from,
+                const std::vector<Crossing>& crossings, const SurfacePoint& to) {
+  double length = 0.0;
+  Vec3 last = mesh.position(from);
+  for (const Crossing& c : crossings) {
+    require(c.t >= 0.0 && c.t <= 1.0);
+    length += (position(mesh, c) - last).norm();
+    last = position(mesh, c);
+  }
+  return length + (mesh.position(to) - last).norm();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes{data, size};
+  const int vertices = 3 + bytes.next() % 14;
+  std::vector<Vec3> positions;
+  for (int v = 0; v < vertices; ++v)
+    positions.emplace_back(bytes.next() % 8, bytes.next() % 8, bytes.next() % 8);
+  const int count = 1 + bytes.next() % 30;
+  std::vector<Face> faces;
+  for (int f = 0; f < count; ++f)
+    faces.push_back({bytes.next() % vertices, bytes.next() % vertices, bytes.next() % vertices});
+  const TriangleMesh mesh(positions, faces);
+  const HalfEdges edges(mesh);
+  const SurfacePoint a = point(bytes, mesh);
+  const SurfacePoint b = point(bytes, mesh);
+  const double straight = (mesh.position(a) - mesh.position(b)).norm();
+  constexpr double kTolerance = 1e-6;
+
+  geodesic::ExactGeodesics exact(mesh, edges);
+  exact.compute(a);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) require(exact.distance(v) >= 0.0);
+  const double distance = exact.distance(b);
+  require(distance >= straight - kTolerance);
+  const geodesic::ExactPath path = exact.path_to(b);
+  if (path.found) {
+    require(std::abs(path.length - distance) <= kTolerance);
+    require(std::abs(polyline(mesh, a, path.crossings, b) - path.length) <= kTolerance);
+  }
+
+  geodesic::LocalPathFinder finder(mesh, edges);
+  for (const std::size_t work : {std::size_t{1}, std::size_t{20000}}) {
+    std::vector<Crossing> crossings;
+    geodesic::LocalPathOptions options;
+    options.most_windows = work;
+    const geodesic::LocalPath local = finder.find(a, b, crossings, options);
+    if (local.label == geodesic::PathLabel::disconnected) continue;
+    require(std::abs(polyline(mesh, a, crossings, b) - local.length) <= kTolerance);
+    require(local.length >= distance - kTolerance);
+  }
+
+  const Vec3 direction(bytes.next() - 128, bytes.next() - 128, bytes.next() - 128);
+  std::vector<Crossing> crossings;
+  const geodesic::Trace trace =
+      geodesic::trace_straightest(mesh, edges, a, direction, 10.0, &crossings);
+  require(trace.end.bary.allFinite() && trace.direction.allFinite());
+  require(std::isfinite(
+      geodesic::parallel_transport(mesh, edges, a, crossings, trace.end, direction).sum()));
+
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  geodesic::DiscreteExponentialMap map(mesh, edges, normals);
+  for (const Vec2& x : map.compute(a, 5.0).coordinates) require(x.allFinite());
+  return 0;
+}
