@@ -97,6 +97,8 @@ Target::Target(TriangleMesh mesh, const TargetOptions& options) : mesh_(std::mov
   if (!options.allow_nonmanifold && !half_edges_.is_manifold())
     check_manifold(half_edges_, mesh_.vertex_count());
   normals_ = angle_weighted_normals(mesh_);
+  visible_normals_ = normals_;
+  make_visible(mesh_, half_edges_, visible_normals_);
   bvh_ = Bvh<3, Triangle>(mesh_.face_count(),
                           [&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
   box_ = mimicry::bounding_box(mesh_);
@@ -138,14 +140,16 @@ void Target::update_positions(std::span<const Vec3> positions) {
   if (positions.size() == mesh_.positions().size()) check_positions(positions, mesh_.faces());
   mesh_.set_positions(positions);
   angle_weighted_normals(mesh_, normals_);
+  std::copy(normals_.begin(), normals_.end(), visible_normals_.begin());
+  make_visible(mesh_, half_edges_, visible_normals_);
   bvh_.refit([&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
   box_ = mimicry::bounding_box(mesh_);
   diagonal_ = box_.diagonal().norm();
 }
 
 std::size_t Target::memory_bytes() const {
-  return mesh_.memory_bytes() + half_edges_.memory_bytes() + normals_.capacity() * sizeof(Vec3) +
-         bvh_.memory_bytes();
+  return mesh_.memory_bytes() + half_edges_.memory_bytes() +
+         (normals_.capacity() + visible_normals_.capacity()) * sizeof(Vec3) + bvh_.memory_bytes();
 }
 
 }  // namespace mimicry::spatial

@@ -7,6 +7,7 @@
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/visible_normals.h>
 #include <mimicry/spatial/bvh.h>
 #include <mimicry/spatial/triangle.h>
 
@@ -47,6 +48,8 @@ class Target {
   const HalfEdges& half_edges() const { return half_edges_; }
   /// #V unit normals, weighted by angle.
   std::span<const Vec3> vertex_normals() const { return normals_; }
+  /// #V unit normals of which each sees all its faces from the front (`make_visible`).
+  std::span<const Vec3> visible_normals() const { return visible_normals_; }
   const Eigen::AlignedBox3d& bounding_box() const { return box_; }
   /// Of the bounding box: the size that relative tolerances refer to.
   double diagonal() const { return diagonal_; }
@@ -82,6 +85,7 @@ class Target {
   TriangleMesh mesh_;
   HalfEdges half_edges_;
   std::vector<Vec3> normals_;
+  std::vector<Vec3> visible_normals_;
   Bvh<3, Triangle> bvh_;
   Eigen::AlignedBox3d box_;
   double diagonal_ = 0.0;
