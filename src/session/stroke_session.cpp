@@ -17,6 +17,7 @@ void StrokeSession::begin(const Similarity& model_to_world) {
   builder_.clear();
   memory_ = {};
   model_to_world_ = model_to_world;
+  canvas_.metres_per_unit = model_to_world.scale;
   counts_ = {};
   frame_ = 0;
   last_time_s_ = -kInfinity;

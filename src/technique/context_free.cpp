@@ -18,6 +18,7 @@ Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const
   step.memory.pen = frame.controller.position;
   step.memory.surface = surface;
   step.memory.position = position;
+  step.memory.time_s = frame.time_s;
   return step;
 }
 

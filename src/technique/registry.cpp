@@ -10,13 +10,31 @@
 namespace mimicry::technique {
 namespace {
 
-constexpr std::array<OptionInfo, 1> kSprayOptions = {{
-    {"nozzle", "", "spray direction in the controller's axes (x,y,z)",
-     [](const Options& o) { return std::span<const double>(o.nozzle.data(), 3); },
-     [](Options& o) { return std::span<double>(o.nozzle.data(), 3); }, -1.0, 1.0},
+constexpr OptionInfo kNozzle = {
+    "nozzle",
+    "",
+    "spray direction in the controller's axes (x,y,z)",
+    [](const Options& o) { return std::span<const double>(o.nozzle.data(), 3); },
+    [](Options& o) { return std::span<double>(o.nozzle.data(), 3); },
+    -1.0,
+    1.0};
+
+constexpr std::array<OptionInfo, 1> kSprayOptions = {kNozzle};
+
+constexpr std::array<OptionInfo, 4> kSoftAnchorOptions = {{
+    kNozzle,
+    {"soft-anchor", "", "1: carry over what the curve did not follow; 0: do not",
+     [](const Options& o) { return std::span<const double>(&o.soft_anchor.on, 1); },
+     [](Options& o) { return std::span<double>(&o.soft_anchor.on, 1); }, 0.0, 1.0},
+    {"soft-anchor-tau", "s", "time in which what is carried over fades to 1/e",
+     [](const Options& o) { return std::span<const double>(&o.soft_anchor.tau_s, 1); },
+     [](Options& o) { return std::span<double>(&o.soft_anchor.tau_s, 1); }, 0.001, 10.0},
+    {"soft-anchor-limit", "mm", "length carried over at most, in the world",
+     [](const Options& o) { return std::span<const double>(&o.soft_anchor.limit_mm, 1); },
+     [](Options& o) { return std::span<double>(&o.soft_anchor.limit_mm, 1); }, 0.0, 100.0},
 }};
 
-constexpr std::array<TechniqueInfo, 5> kTechniques = {{
+constexpr std::array<TechniqueInfo, 6> kTechniques = {{
     {"occlude",
      "along the line of sight: from the eye through the pen, to what the pen hides",
      "3.1.1",
@@ -36,6 +54,9 @@ constexpr std::array<TechniqueInfo, 5> kTechniques = {{
     {"snap", "to the closest point of the surface", "3.1.2", false, false, {}, snap},
     {"anchored-closest", "the hand's motion is added to the last point, then the closest point",
      "4.1", true, false, kSprayOptions, anchored_closest},
+    {"mimicry-live",
+     "the hand's motion is added to the last point, then back along the smoothed normal; no bake",
+     "-", true, false, kSoftAnchorOptions, mimicry_live},
 }};
 
 }  // namespace

@@ -13,10 +13,17 @@ namespace mimicry::technique {
 /// What a technique may look at: the target and what was prepared for it.
 struct Canvas {
   const spatial::Target* target = nullptr;
+  double metres_per_unit = 1.0;  ///< at which the target is shown; > 0; a session sets its own
 };
 
-/// How a point was found; `miss` where there is none.
-enum class Answer : std::uint8_t { miss, ray, closest };
+/// How a point was found.
+enum class Answer : std::uint8_t {
+  miss,     ///< there is none
+  ray,      ///< first hit of a ray
+  closest,  ///< closest point of the surface
+  smooth,   ///< a smooth projection
+  section,  ///< end of a walk along the surface, where the smooth projection has no answer
+};
 
 /// What is carried from frame to frame, in model space. The anchor is the last frame that had a
 /// point. A stroke starts with Memory{}. Plain data: copying it is all there is to undo a frame.
@@ -25,11 +32,22 @@ struct Memory {
   Vec3 pen = Vec3::Zero();       ///< the anchor's p
   SurfacePoint surface;          ///< the anchor's q; also a hint where to search
   Vec3 position = Vec3::Zero();  ///< the same in space
+  double time_s = 0.0;           ///< of the anchor's frame
+  Vec3 rest = Vec3::Zero();      ///< of the soft anchor: r - q of the anchor's frame
+};
+
+/// An anchor that gives way: r - q, what the curve did not follow of the hand's motion, is carried
+/// over to the next frame and fades. Numbers, so that programs can set them by name.
+struct SoftAnchor {
+  double on = 0.0;        ///< 0 or 1; the paper's techniques have none
+  double tau_s = 0.12;    ///< after which it has faded to 1/e
+  double limit_mm = 6.0;  ///< length carried at most, in the world
 };
 
 struct Options {
   /// Spray direction in the controller's own axes; any length above 0.
   Vec3 nozzle = -Vec3::UnitZ();
+  SoftAnchor soft_anchor;
 };
 
 /// The point for one frame, and what to carry to the next. `surface` and `position` are set where
