@@ -18,6 +18,17 @@ inline Vec3 anchored_point(const Memory& memory, const stroke::Frame& frame,
   return r + std::exp(-dt / options.soft_anchor.tau_s) * memory.rest;
 }
 
+/// With what is carried over, r can stand where the nearest branch of answers ends although the
+/// hand hardly moved. Such a jump, longer than 4 |dp| and than 2 mm in the world, is not followed:
+/// the step is to be taken without the rest.
+inline bool is_soft_jump(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
+                         const Options& options, const Step& step) {
+  if (options.soft_anchor.on == 0.0 || step.answer == Answer::miss) return false;
+  const double longest = std::max(4.0 * (frame.controller.position - memory.pen).norm(),
+                                  2e-3 / canvas.metres_per_unit);
+  return (step.position - memory.position).norm() > longest;
+}
+
 /// Keeps what of r the step's point has not followed; `step` comes from `ink`.
 inline void keep_rest(const Canvas& canvas, const Vec3& r, const Options& options, Step& step) {
   if (options.soft_anchor.on == 0.0) return;
