@@ -152,13 +152,13 @@ Step live_step(const Canvas& canvas, const Memory& memory, const stroke::Frame& 
 Step mimicry_live(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                   const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
-  Vec3 r = anchored_point(memory, frame, options);
+  Vec3 r = anchored_point(canvas, memory, frame, options);
   Step step = live_step(canvas, memory, frame, r);
   if (is_soft_jump(canvas, memory, frame, options, step)) {
     r = memory.position + (frame.controller.position - memory.pen);
     step = live_step(canvas, memory, frame, r);
   }
-  if (step.answer != Answer::miss) keep_rest(canvas, r, options, step);
+  keep_rest(canvas, memory, frame, options, r, step);
   return step;
 }
 

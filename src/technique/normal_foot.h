@@ -22,8 +22,8 @@ struct NormalFoot {
 
 /// Where r - x(b) = t n(b), |t| <= reach: the nearest x inside the triangle; where there is none,
 /// the nearest in its plane, whose barycentrics tell in which direction to go on. n(b) is not
-/// normalised. Answers whose |r - x - t n| is above `tolerance`, and triangles without area, give
-/// none. A cubic equation in t. 0.1 to 0.2 microseconds.
+/// normalised. Answers whose |r - x - t n| is above `tolerance`, or for which the triangle of the
+/// a_k + t n_k has no area, do not count. A cubic equation in t. 0.1 to 0.2 microseconds.
 NormalFoot normal_foot(const NormalTriangle& triangle, const Vec3& r, double reach,
                        double tolerance);
 

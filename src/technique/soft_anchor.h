@@ -7,15 +7,30 @@
 
 namespace mimicry::technique {
 
+/// How far the rest fades in half of the time since the anchor's frame. Fading half before and half
+/// after the motion makes the curve agree between frame rates to second order in the time step.
+inline double half_fade(const Memory& memory, const stroke::Frame& frame, const Options& options) {
+  return std::exp(-0.5 * (frame.time_s - memory.time_s) / options.soft_anchor.tau_s);
+}
+
+/// The longest rest, in mesh units.
+inline double longest_rest(const Canvas& canvas, const Options& options) {
+  return 1e-3 * options.soft_anchor.limit_mm / canvas.metres_per_unit;
+}
+
 /// The anchored point r = q + e + dp of this frame: the hand's motion is added to the last point,
 /// and with it e, what of the last r the surface did not follow, as far as it has not faded. e is
-/// zero without the soft anchor. The memory is anchored.
-inline Vec3 anchored_point(const Memory& memory, const stroke::Frame& frame,
+/// zero without the soft anchor. While the motion dp makes e longer, the limit holds for its mean
+/// length over the step, for the same reason as above. The memory is anchored.
+inline Vec3 anchored_point(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                            const Options& options) {
-  const Vec3 r = memory.position + (frame.controller.position - memory.pen);
-  if (options.soft_anchor.on == 0.0) return r;
-  const double dt = frame.time_s - memory.time_s;
-  return r + std::exp(-dt / options.soft_anchor.tau_s) * memory.rest;
+  const Vec3 motion = frame.controller.position - memory.pen;
+  const double rest = memory.rest.norm();
+  if (options.soft_anchor.on == 0.0 || !(rest > 0.0)) return memory.position + motion;
+  const double growth = motion.dot(memory.rest) / rest;
+  const double carried = std::min(half_fade(memory, frame, options) * rest,
+                                  longest_rest(canvas, options) - 0.5 * growth);
+  return memory.position + carried / rest * memory.rest + motion;
 }
 
 /// With what is carried over, r can stand where the nearest branch of answers ends although the
@@ -29,11 +44,13 @@ inline bool is_soft_jump(const Canvas& canvas, const Memory& memory, const strok
   return (step.position - memory.position).norm() > longest;
 }
 
-/// Keeps what of r the step's point has not followed; `step` comes from `ink`.
-inline void keep_rest(const Canvas& canvas, const Vec3& r, const Options& options, Step& step) {
-  if (options.soft_anchor.on == 0.0) return;
-  const double limit = 1e-3 * options.soft_anchor.limit_mm / canvas.metres_per_unit;
-  const Vec3 rest = r - step.position;
+/// Keeps what of r the step's point has not followed; `step` comes from `ink`, `memory` from
+/// before.
+inline void keep_rest(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
+                      const Options& options, const Vec3& r, Step& step) {
+  if (options.soft_anchor.on == 0.0 || step.answer == Answer::miss) return;
+  const double limit = longest_rest(canvas, options);
+  const Vec3 rest = half_fade(memory, frame, options) * (r - step.position);
   const double norm = rest.norm();
   step.memory.rest = norm > limit ? Vec3(limit / norm * rest) : rest;
 }
