@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include <mimicry/spatial/triangle.h>
@@ -32,7 +33,7 @@ class FaceSet {
   Index operator[](std::size_t i) const { return faces_[i]; }
   void insert(Index f) {
     if (size_ == kMostFaces) return;
-    std::size_t slot = (static_cast<std::uint32_t>(f) * 2654435761U) >> 22;
+    std::size_t slot = (static_cast<std::uint32_t>(f) * 2654435761U) % kSlots;
     for (; slots_[slot] != kNone; slot = (slot + 1) % kSlots)
       if (slots_[slot] == f) return;
     slots_[slot] = f;
@@ -152,12 +153,8 @@ Step live_step(const Canvas& canvas, const Memory& memory, const stroke::Frame& 
 Step mimicry_live(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                   const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
-  Vec3 r = anchored_point(canvas, memory, frame, options);
-  Step step = live_step(canvas, memory, frame, r);
-  if (is_soft_jump(canvas, memory, frame, options, step)) {
-    r = memory.position + (frame.controller.position - memory.pen);
-    step = live_step(canvas, memory, frame, r);
-  }
+  const Vec3 r = anchored_point(canvas, memory, frame, options);
+  Step step = without_jump(canvas, memory, frame, options, live_step(canvas, memory, frame, r));
   keep_rest(canvas, memory, frame, options, r, step);
   return step;
 }

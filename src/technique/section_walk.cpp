@@ -47,6 +47,7 @@ SurfacePoint walk_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
     const double step = (mesh.position(exit) - mesh.position(at)).norm();
     if (step >= left) {
       at.bary += (left / step) * (exit.bary - at.bary);
+      at.bary = at.bary.cwiseMax(0.0);
       return at;
     }
     left -= step;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "technique/section_walk.h"
 #include "technique/steps.h"
 
 namespace mimicry::technique {
@@ -33,15 +34,20 @@ inline Vec3 anchored_point(const Canvas& canvas, const Memory& memory, const str
   return memory.position + carried / rest * memory.rest + motion;
 }
 
-/// With what is carried over, r can stand where the nearest branch of answers ends although the
-/// hand hardly moved. Such a jump, longer than 4 |dp| and than 2 mm in the world, is not followed:
-/// the step is to be taken without the rest.
-inline bool is_soft_jump(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
+/// With what is carried over, r can stand where a branch of answers ends, and the answer jumps
+/// although the hand hardly moved. A step longer than 4 |dp| and than 2 mm in the world goes only
+/// that far along the surface; the rest then draws the next ones on to where the jump led.
+inline Step without_jump(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                          const Options& options, const Step& step) {
-  if (options.soft_anchor.on == 0.0 || step.answer == Answer::miss) return false;
+  if (options.soft_anchor.on == 0.0 || step.answer == Answer::miss) return step;
   const double longest = std::max(4.0 * (frame.controller.position - memory.pen).norm(),
                                   2e-3 / canvas.metres_per_unit);
-  return (step.position - memory.position).norm() > longest;
+  const Vec3 way = step.position - memory.position;
+  if (!(way.norm() > longest)) return step;
+  const spatial::Target& target = *canvas.target;
+  const SurfacePoint end = walk_section(target.mesh(), target.half_edges(), memory.surface, way,
+                                        target.normal(memory.surface), longest);
+  return ink(Answer::section, end, target.position(end), memory, frame);
 }
 
 /// Keeps what of r the step's point has not followed; `step` comes from `ink`, `memory` from

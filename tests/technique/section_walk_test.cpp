@@ -19,7 +19,7 @@ Vec3 walk(const spatial::Target& target, const SurfacePoint& q, const Vec3& moti
           const Vec3& normal, double length) {
   const SurfacePoint end =
       walk_section(target.mesh(), target.half_edges(), q, motion, normal, length);
-  EXPECT_GE(end.bary.minCoeff(), -1e-12);
+  EXPECT_GE(end.bary.minCoeff(), 0.0);
   EXPECT_NEAR(end.bary.sum(), 1.0, 1e-12);
   return target.position(end);
 }
