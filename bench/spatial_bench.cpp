@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
@@ -14,6 +13,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
 
 namespace {
@@ -27,23 +27,6 @@ using mimicry::Vec3;
 using mimicry::spatial::Target;
 
 constexpr int kQueries = 4096;
-
-TriangleMesh torus_86400() {
-  constexpr int kAround = 240, kAcross = 180;
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (int i = 0; i < kAround; ++i)
-    for (int j = 0; j < kAcross; ++j) {
-      const double u = 2.0 * std::numbers::pi * i / kAround;
-      const double v = 2.0 * std::numbers::pi * j / kAcross;
-      const double r = 1.0 + 0.4 * std::cos(v);
-      positions.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
-      const auto at = [&](int a, int b) { return (a % kAround) * kAcross + b % kAcross; };
-      faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return {positions, faces};
-}
 
 TriangleMesh read_triangles(const std::string& path) {
   std::ifstream in(path);
@@ -357,7 +340,8 @@ bool agrees(const Scene& s) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::vector<std::shared_ptr<Scene>> scenes;
-  scenes.push_back(std::make_shared<Scene>("torus_86400", torus_86400()));
+  scenes.push_back(std::make_shared<Scene>(
+      "torus_86400", mimicry::make_torus(360, mimicry::kLargeTorusResolution)));
   const TriangleMesh bunny = read_triangles(MIMICRY_STUDY_DATA "/bunny.obj");
   if (bunny.face_count() > 0) {
     scenes.push_back(std::make_shared<Scene>("bunny", bunny));

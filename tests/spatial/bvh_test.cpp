@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/brute_force.h>
 #include <mimicry/spatial/bvh.h>
 #include <mimicry/spatial/surface_search.h>
@@ -29,12 +30,12 @@ struct Named {
 std::vector<Named> meshes() {
   Random random(7);
   std::vector<Named> result;
-  result.push_back({"torus", testing::torus(40, 20)});
-  result.push_back({"cube", testing::cube(6)});
+  result.push_back({"torus", make_torus(40, 20, 1.0, 0.4)});
+  result.push_back({"cube", make_box(6, 6, 6, Vec3::Ones())});
   result.push_back({"soup", testing::soup(random, 500)});
-  result.push_back(
-      {"two parts", testing::joined(testing::cube(3), testing::transformed(testing::torus(20, 9),
-                                                                           0.3, Vec3(4, 0, 0)))});
+  result.push_back({"two parts", testing::joined(make_box(3, 3, 3, Vec3::Ones()),
+                                                 testing::transformed(make_torus(20, 9, 1.0, 0.4),
+                                                                      0.3, Vec3(4, 0, 0)))});
   result.push_back({"one triangle", {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}}});
   // Every centre is the same: nothing to split by.
   std::vector<Vec3> corners;
@@ -97,8 +98,7 @@ struct Both {
 // Places where ties and rounding matter: corners, middles of sides, points above them, the
 // content's centre, and points at random near and far.
 Vec3 query(Random& random, const TriangleMesh& mesh, double size) {
-  const auto f =
-      static_cast<Index>(random() % static_cast<std::uint64_t>(mesh.face_count()));
+  const auto f = static_cast<Index>(random() % static_cast<std::uint64_t>(mesh.face_count()));
   const Vec3 corner = mesh.corner(f, 0);
   const Vec3 middle = 0.5 * (mesh.corner(f, 0) + mesh.corner(f, 1));
   switch (random() % 8) {
@@ -141,8 +141,8 @@ TEST(Bvh, HintsAndBoundsNeverChangeTheAnswer) {
     Random random(12);
     for (int i = 0; i < 300; ++i) {
       const Vec3 y = query(random, named.mesh, 1.0);
-      const auto hint = static_cast<Index>(
-          random() % static_cast<std::uint64_t>(named.mesh.face_count()));
+      const auto hint =
+          static_cast<Index>(random() % static_cast<std::uint64_t>(named.mesh.face_count()));
       const double exact = nearest_triangle(both.brute, y, kInfinity, kNone, both.get()).distance2;
       ASSERT_NO_FATAL_FAILURE(both.expect_same(y, kInfinity, hint, named.name));
       // The bound itself is allowed; just below it there is nothing.
@@ -178,7 +178,7 @@ TEST(Bvh, RaysEqualBruteForce) {
 }
 
 TEST(Bvh, RefitAnswersAsARebuildDoes) {
-  const TriangleMesh mesh = testing::torus(40, 20);
+  const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
   Bvh<3, Triangle> refitted(mesh.face_count(),
                             [&](Index f) { return testing::triangle_of(mesh, f); });
   Random random(14);

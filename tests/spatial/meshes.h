@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -28,52 +27,6 @@ inline Vec3 unit_vector(Random& random) {
 
 inline Triangle triangle_of(const TriangleMesh& mesh, Index f) {
   return {mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)};
-}
-
-/// Closed torus of 2 m n faces, outside counter-clockwise.
-inline TriangleMesh torus(int m, int n, double major = 1.0, double minor = 0.4) {
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (int i = 0; i < m; ++i)
-    for (int j = 0; j < n; ++j) {
-      const double u = 2.0 * std::numbers::pi * i / m, v = 2.0 * std::numbers::pi * j / n;
-      const double r = major + minor * std::cos(v);
-      positions.emplace_back(r * std::cos(u), r * std::sin(u), minor * std::sin(v));
-      const auto at = [&](int a, int b) { return (a % m) * n + b % n; };
-      faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return {positions, faces};
-}
-
-/// Closed cube [-1, 1]^3 with n by n squares a side: coplanar neighbours, axis-aligned boxes
-/// without thickness.
-inline TriangleMesh cube(int n) {
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  const auto vertex = [&](const Vec3& p) {
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      if (positions[i] == p) return static_cast<Index>(i);
-    positions.push_back(p);
-    return static_cast<Index>(positions.size() - 1);
-  };
-  for (int axis = 0; axis < 3; ++axis)
-    for (const int side : {-1, 1})
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          const auto at = [&](int a, int b) {
-            Vec3 p;
-            p[axis] = side;
-            p[(axis + 1) % 3] = (2.0 * a - n) / n;
-            p[(axis + 2) % 3] = (2.0 * b - n) / n;
-            return vertex(p);
-          };
-          Index a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
-          if (side < 0) std::swap(b, d);
-          faces.push_back({a, b, c});
-          faces.push_back({a, c, d});
-        }
-  return {positions, faces};
 }
 
 /// Triangles that share nothing, many of them needles, some without area, some the same.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
+#include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
 
 #include "spatial/meshes.h"
@@ -58,7 +59,7 @@ TEST(Target, UpperBoundIncludesItself) {
 }
 
 TEST(Target, WhatIsNotANumberFindsNothing) {
-  const Target target(testing::torus(10, 6));
+  const Target target(make_torus(10, 6, 1.0, 0.4));
   for (const double bad : {kNaN, kInfinity, -kInfinity, 1e300}) {
     for (int k = 0; k < 3; ++k) {
       Vec3 y(1, 2, 3);
@@ -73,7 +74,7 @@ TEST(Target, WhatIsNotANumberFindsNothing) {
 }
 
 TEST(Target, DirectionsOfAnyLengthGiveTheSameHit) {
-  const Target target(testing::torus(20, 10));
+  const Target target(make_torus(20, 10, 1.0, 0.4));
   const Vec3 direction(1, 0.3, 0.1);
   const auto expected = target.first_hit(Vec3::Zero(), direction);
   ASSERT_TRUE(expected.has_value());
@@ -86,7 +87,7 @@ TEST(Target, DirectionsOfAnyLengthGiveTheSameHit) {
 }
 
 TEST(Target, AllHitsComeByDistance) {
-  const Target target(testing::torus(40, 20));
+  const Target target(make_torus(40, 20, 1.0, 0.4));
   std::vector<RayHit> hits(1);
   target.all_hits(Vec3(-5, 0.01, 0.02), Vec3(1, 0, 0), hits);
   ASSERT_EQ(hits.size(), 5U);
@@ -97,7 +98,7 @@ TEST(Target, AllHitsComeByDistance) {
 
 TEST(Target, TiesGoToTheLowerFace) {
   // The cube's centre is equally far from all faces; each corner belongs to several.
-  const Target target(testing::cube(2));
+  const Target target(make_box(2, 2, 2, Vec3::Ones()));
   EXPECT_EQ(target.closest_point(Vec3::Zero())->surface.face, 0);
   const TriangleMesh& mesh = target.mesh();
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -110,7 +111,7 @@ TEST(Target, TiesGoToTheLowerFace) {
 }
 
 TEST(Target, ScaleAndPlaceDoNotMatter) {
-  const TriangleMesh mesh = testing::torus(40, 20);
+  const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
   const Target target(mesh);
   Random random(41);
   for (const double scale : {1e-6, 1.0, 1e6}) {
@@ -171,7 +172,7 @@ TEST(Target, RefusesNonManifoldUnlessAllowed) {
 }
 
 TEST(Target, MovedPositionsAnswerAsANewTarget) {
-  const TriangleMesh mesh = testing::torus(40, 20);
+  const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
   Target moved(mesh);
   const TriangleMesh shape = testing::transformed(mesh, 0.01, Vec3(3, 4, 5));
   const long before = allocation_count();
@@ -190,7 +191,7 @@ TEST(Target, MovedPositionsAnswerAsANewTarget) {
 }
 
 TEST(Target, BadPositionsChangeNothing) {
-  const TriangleMesh mesh = testing::torus(10, 6);
+  const TriangleMesh mesh = make_torus(10, 6, 1.0, 0.4);
   Target target(mesh);
   std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
   EXPECT_THROW(target.update_positions(std::span(positions).first(5)), Error);
@@ -206,7 +207,7 @@ TEST(Target, BadPositionsChangeNothing) {
 }
 
 TEST(Target, QueriesAllocateNothing) {
-  const Target target(testing::torus(100, 50));
+  const Target target(make_torus(100, 50, 1.0, 0.4));
   Random random(43);
   const long before = allocation_count();
   Index hint = kNone;
@@ -223,7 +224,7 @@ TEST(Target, QueriesAllocateNothing) {
 }
 
 TEST(Target, HoldsUnder200BytesAFace) {
-  const Target target(testing::torus(240, 180));
+  const Target target(make_torus(360, kLargeTorusResolution));
   ASSERT_EQ(target.mesh().face_count(), 86400);
   const double bytes = static_cast<double>(target.memory_bytes()) / target.mesh().face_count();
   RecordProperty("bytes_a_face", std::to_string(bytes));

@@ -1,5 +1,9 @@
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
+#include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/bvh.h>
 #include <mimicry/spatial/surface_search.h>
 
@@ -36,20 +40,20 @@ int escapes(const TriangleMesh& mesh, const Vec3& inside, double spread, std::ui
 }
 
 TEST(Watertight, NoRayEscapesThroughEdgesAndVerticesOfATorus) {
-  const TriangleMesh mesh = testing::torus(40, 20);
+  const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
   EXPECT_EQ(escapes(mesh, Vec3(1.0, 0.0, 0.0), 0.1, 21), 0);
 }
 
 TEST(Watertight, NoRayEscapesFromACubeWithGridLinesInLineWithTheOrigin) {
-  EXPECT_EQ(escapes(testing::cube(6), Vec3::Zero(), 0.9, 22), 0);
+  EXPECT_EQ(escapes(make_box(6, 6, 6, Vec3::Ones()), Vec3::Zero(), 0.9, 22), 0);
 }
 
 TEST(Watertight, NoRayEscapesFromATinyOrShiftedMesh) {
   const Vec3 offset(1e4, -7e3, 3e3);
-  EXPECT_EQ(escapes(testing::transformed(testing::torus(30, 12), 1.0, offset),
+  EXPECT_EQ(escapes(testing::transformed(make_torus(30, 12, 1.0, 0.4), 1.0, offset),
                     Vec3(1.0, 0.0, 0.0) + offset, 0.1, 23),
             0);
-  EXPECT_EQ(escapes(testing::transformed(testing::torus(30, 12), 1e-6, Vec3::Zero()),
+  EXPECT_EQ(escapes(testing::transformed(make_torus(30, 12, 1.0, 0.4), 1e-6, Vec3::Zero()),
                     Vec3(1e-6, 0.0, 0.0), 1e-7, 24),
             0);
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,14 +17,45 @@
 
 namespace mimicry::spatial {
 
+/// Four primitives of which nothing is known: each must be tested.
+template <class Primitive>
+class PlainPack {
+ public:
+  struct NearSieve {
+    template <class... Any>
+    explicit NearSieve(const Any&...) {}
+    void set_bound(float) {}
+  };
+  using RaySieve = NearSieve;
+
+  void set(int lane, const Primitive& p) { primitives_[static_cast<std::size_t>(lane)] = p; }
+  const Primitive& get(std::size_t lane) const { return primitives_[lane]; }
+  unsigned candidates(const NearSieve&) const { return 15U; }
+
+ private:
+  std::array<Primitive, 4> primitives_;
+};
+
+namespace detail {
+
+template <class Primitive>
+constexpr auto pack_of() {
+  if constexpr (requires { typename Primitive::Pack; })
+    return std::type_identity<typename Primitive::Pack>();
+  else
+    return std::type_identity<PlainPack<Primitive>>();
+}
+
+}  // namespace detail
+
 /// Bounding-volume hierarchy over primitives in R^Dim: triangles of a surface, tetrahedra of a
 /// shell, triangles in R^8. A primitive is any copyable type with
-/// `Eigen::AlignedBox<double, Dim> box() const`; the hierarchy keeps the primitives itself, in the
-/// order of its leaves. Queries hand candidates to a visitor, which decides; every primitive that
-/// could matter is visited, so that the answer never depends on the tree. `BruteForce` has the same
-/// interface.
+/// `Eigen::AlignedBox<double, Dim> box() const`; the hierarchy keeps the primitives itself, four to
+/// a leaf, in its `Pack` if it names one (`TrianglePack`), which spares most of the vain visits.
+/// Queries hand candidates to a visitor, which decides; every primitive that could matter is
+/// visited, so that the answer never depends on the tree. `BruteForce` has the same interface.
 ///
-/// Nodes have four children and boxes in float, rounded outward, relative to the content's centre
+/// Nodes have kWidth children and boxes in float, rounded outward, relative to the content's centre
 /// and size: a scaled or shifted content has the same relative accuracy. Built top-down with the
 /// surface-area heuristic in 16 bins (Wald 2007); the same primitives give the same tree.
 template <int Dim, class PrimitiveType>
@@ -44,40 +76,45 @@ class Bvh {
   template <class Get>
   void refit(Get&& primitive);
 
-  Index size() const { return static_cast<Index>(slots_.size()); }
+  Index size() const { return count_; }
   std::size_t memory_bytes() const {
-    return nodes_.capacity() * sizeof(Node) + slots_.capacity() * sizeof(Slot);
+    return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf);
   }
 
   /// Branch and bound, nearer boxes first. visit(i, primitive, bound2) returns the new squared
-  /// bound, not larger than the one it got. Visited are, at least, all primitives whose box has a
-  /// squared distance to y of at most the bound that stands at the end. y: finite, below 1e60.
+  /// bound, not larger than the one it got. Visited are, at least, all primitives with a point
+  /// whose squared distance to y is at most the bound that stands at the end (of primitives without
+  /// a pack of their own: all whose box has one). y: finite, below 1e60.
   template <class Visit>
   void nearest(const Point& y, double bound2, Visit&& visit) const;
 
-  /// visit(i, primitive) for each primitive whose box contains y (and perhaps some whose box only
-  /// nearly does) until it returns true. Whether it did.
+  /// visit(i, primitive) for each primitive whose box contains y (and some near it) until it
+  /// returns true. Whether it did.
   template <class Visit>
   bool containing(const Point& y, Visit&& visit) const;
 
   /// Primitives along the ray origin + t direction, 0 <= t <= bound, nearer boxes first.
-  /// visit(i, primitive, bound) returns the new bound, not larger. direction: unit length.
+  /// visit(i, primitive, bound) returns the new bound, not larger. direction: unit length. From
+  /// more than 1e12 times the content's size away nothing is met: rounding alone would decide.
   template <class Visit>
   void along(const Point& origin, const Point& direction, double bound, Visit&& visit) const;
 
  private:
-  // Children: a node's number, or ~(first slot << 3 | count - 1) for a leaf; the boxes of unused
-  // lanes are empty.
-  struct alignas(64) Node {
-    std::array<Float4, 2 * Dim> planes;  // lower bounds of the four children by axis, then upper
-    std::array<std::int32_t, 4> children;
-  };
-  struct Slot {
-    Primitive primitive;
-    Index number;
-  };
   static constexpr int kWidth = 4;
+  static constexpr int kBlocks = kWidth / 4;  // of four lanes
+  using Lanes = std::array<Float4, kBlocks>;
+  // Children: a node's number, or ~(leaf << 3 | count - 1); the boxes of unused lanes are empty.
+  struct alignas(64) Node {
+    std::array<Lanes, 2 * Dim> planes;  // lower bounds of the children by axis, then upper
+    std::array<std::int32_t, kWidth> children;
+  };
   static constexpr int kMostInLeaf = 4;
+  using Pack = typename decltype(detail::pack_of<Primitive>())::type;
+  // Unused lanes repeat the first primitive.
+  struct alignas(64) Leaf {
+    Pack pack;
+    std::array<Index, kMostInLeaf> numbers;
+  };
   static constexpr std::int32_t kUnused = std::numeric_limits<std::int32_t>::min();
   // Beyond kHeuristicDepth levels ranges are halved, which ends within 31 more.
   static constexpr int kHeuristicDepth = 24;
@@ -108,17 +145,39 @@ class Bvh {
                     : std::numeric_limits<float>::max();
   }
 
-  template <class Function>
-  static void for_each_slot(std::int32_t leaf, Function&& function) {
-    const std::uint32_t code = ~static_cast<std::uint32_t>(leaf);
-    const std::size_t first = code >> 3, last = first + (code & 7U);
-    for (std::size_t slot = first; slot <= last; ++slot) function(slot);
+  const Leaf& leaf(std::int32_t child) const {
+    return leaves_[~static_cast<std::uint32_t>(child) >> 3];
+  }
+  static unsigned used_lanes(std::int32_t child) {
+    return (2U << (~static_cast<std::uint32_t>(child) & 7U)) - 1U;
+  }
+  // visit(i, primitive) for each lane of a set.
+  template <class Visit>
+  static void for_each_lane(const Leaf& leaf, unsigned lanes, Visit&& visit) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const std::size_t lane = lowest_bit(lanes);
+      visit(leaf.numbers[lane], leaf.pack.get(lane));
+    }
+  }
+
+  static std::size_t lowest_bit(unsigned bits) {
+    return static_cast<std::size_t>(__builtin_ctz(bits));
+  }
+  static double plane(const Node& node, int p, int lane) {
+    return static_cast<double>(
+        node.planes[static_cast<std::size_t>(p)][static_cast<std::size_t>(lane / 4)][lane % 4]);
   }
 
   Point inside(const Point& x) const { return (x - centre_) * scale_; }
   void set_frame(const Box& all);
+  template <class Get>
+  static void set_pack(Leaf& leaf, Get&& primitive) {
+    for (int lane = 0; lane < kMostInLeaf; ++lane)
+      leaf.pack.set(lane, primitive(leaf.numbers[static_cast<std::size_t>(lane)]));
+  }
   void set_child_box(Node& node, int lane, const std::array<float, 2 * Dim>& box) const {
-    for (std::size_t p = 0; p < 2 * Dim; ++p) node.planes[p][lane] = box[p];
+    for (std::size_t p = 0; p < 2 * Dim; ++p)
+      node.planes[p][static_cast<std::size_t>(lane / 4)][lane % 4] = box[p];
   }
   std::array<float, 2 * Dim> float_box(const Box& box) const {
     std::array<float, 2 * Dim> result;
@@ -133,14 +192,16 @@ class Bvh {
   static constexpr double kBoxPad = 4e-16;
 
   // Pushes the lanes of `hit` and returns the one with the smallest key.
-  static std::int32_t push_all_but_nearest(const Node& node, unsigned hit, Float4 key, Entry* stack,
-                                           int& top);
+  [[gnu::always_inline]] static std::int32_t push_all_but_nearest(const Node& node, unsigned hit,
+                                                                  const Lanes& keys, Entry* stack,
+                                                                  int& top);
 
   template <class Visit>
   void nearest_from_afar(const Point& y, double bound2, Visit&& visit) const;
 
   std::vector<Node> nodes_;  // children come after their parents
-  std::vector<Slot> slots_;  // by leaf
+  std::vector<Leaf> leaves_;
+  Index count_ = 0;
   std::int32_t root_ = 0;
   Point centre_ = Point::Zero();
   double scale_ = 1.0;  // a power of two; content is within [-1, 1]^Dim

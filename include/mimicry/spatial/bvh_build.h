@@ -6,11 +6,11 @@ namespace mimicry::spatial {
 
 template <int Dim, class PrimitiveType>
 struct Bvh<Dim, PrimitiveType>::Builder {
-  static constexpr int kBlocks = (Dim + 3) / 4;
+  static constexpr int kParts = (Dim + 3) / 4;
   static constexpr int kBins = 16;
 
   struct Bounds {
-    std::array<Float4, kBlocks> low, high;
+    std::array<Float4, kParts> low, high;
 
     static Bounds empty() {
       Bounds b;
@@ -19,7 +19,7 @@ struct Bvh<Dim, PrimitiveType>::Builder {
       return b;
     }
     void extend(const Bounds& other) {
-      for (std::size_t i = 0; i < kBlocks; ++i) {
+      for (std::size_t i = 0; i < kParts; ++i) {
         low[i] = min(low[i], other.low[i]);
         high[i] = max(high[i], other.high[i]);
       }
@@ -71,11 +71,11 @@ struct Bvh<Dim, PrimitiveType>::Builder {
     for (Index i = range.first; i < range.last; ++i) {
       const Bounds& b = boxes[static_cast<std::size_t>(i)];
       Bounds c;
-      for (std::size_t j = 0; j < kBlocks; ++j) c.low[j] = c.high[j] = b.low[j] + b.high[j];
+      for (std::size_t j = 0; j < kParts; ++j) c.low[j] = c.high[j] = b.low[j] + b.high[j];
       centres.extend(c);
     }
-    std::array<Float4, kBlocks> origin, per_bin;
-    for (std::size_t j = 0; j < kBlocks; ++j) {
+    std::array<Float4, kParts> origin, per_bin;
+    for (std::size_t j = 0; j < kParts; ++j) {
       origin[j] = centres.low[j];
       const Float4 extent = centres.high[j] - centres.low[j];
       for (int l = 0; l < 4; ++l)
@@ -148,7 +148,14 @@ struct Bvh<Dim, PrimitiveType>::Builder {
   Index split_in_half(const Range& range) const { return range.first + range.count() / 2; }
 
   std::int32_t build(const Range& range, int depth) {
-    if (range.count() <= kMostInLeaf) return ~((range.first << 3) | (range.count() - 1));
+    if (range.count() <= kMostInLeaf) {
+      const auto number = static_cast<std::int32_t>(bvh.leaves_.size());
+      Leaf& leaf = bvh.leaves_.emplace_back();
+      for (Index lane = 0; lane < kMostInLeaf; ++lane)
+        leaf.numbers[static_cast<std::size_t>(lane)] = order[static_cast<std::size_t>(
+            lane < range.count() ? range.first + lane : range.first)];
+      return ~((number << 3) | (range.count() - 1));
+    }
     const auto number = static_cast<std::int32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();
 
@@ -174,14 +181,16 @@ struct Bvh<Dim, PrimitiveType>::Builder {
 
     Node& node = bvh.nodes_[static_cast<std::size_t>(number)];
     node.children = children;
-    for (int lane = 0; lane < kWidth; ++lane)
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const bool is_used = static_cast<std::size_t>(lane) < used;
+      const Bounds& b = ranges[static_cast<std::size_t>(lane)].bounds;
+      std::array<float, 2 * Dim> box;
       for (int k = 0; k < Dim; ++k) {
-        const bool is_used = static_cast<std::size_t>(lane) < used;
-        const Bounds& b = ranges[static_cast<std::size_t>(lane)].bounds;
-        node.planes[static_cast<std::size_t>(k)][lane] = is_used ? b.lower(k) : kFloatInfinity;
-        node.planes[static_cast<std::size_t>(k + Dim)][lane] =
-            is_used ? b.upper(k) : -kFloatInfinity;
+        box[static_cast<std::size_t>(k)] = is_used ? b.lower(k) : kFloatInfinity;
+        box[static_cast<std::size_t>(k + Dim)] = is_used ? b.upper(k) : -kFloatInfinity;
       }
+      bvh.set_child_box(node, lane, box);
+    }
     return number;
   }
 };
@@ -218,21 +227,20 @@ Bvh<Dim, PrimitiveType>::Bvh(Index count, Get&& primitive) {
     }
   }
   nodes_.reserve(static_cast<std::size_t>(count) / 4 + 1);
+  leaves_.reserve(static_cast<std::size_t>(count) / 2 + 1);
   root_ = builder.build({0, count, builder.bounds_of(0, count)}, 0);
   nodes_.shrink_to_fit();
-  slots_.reserve(static_cast<std::size_t>(count));
-  for (const Index i : builder.order) slots_.push_back({primitive(i), i});
+  leaves_.shrink_to_fit();
+  count_ = count;
+  for (Leaf& leaf : leaves_) set_pack(leaf, primitive);
 }
 
 template <int Dim, class PrimitiveType>
 template <class Get>
 void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
-  if (slots_.empty()) return;
+  if (count_ == 0) return;
   Box all;
-  for (Slot& slot : slots_) {
-    slot.primitive = primitive(slot.number);
-    all.extend(slot.primitive.box());
-  }
+  for (Index i = 0; i < count_; ++i) all.extend(primitive(i).box());
   set_frame(all);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
@@ -242,14 +250,19 @@ void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
       if (child >= 0) {
         const Node& below = nodes_[static_cast<std::size_t>(child)];
         for (std::size_t k = 0; k < Dim; ++k) {
-          const Float4 low = below.planes[k], high = below.planes[k + Dim];
+          Float4 low = below.planes[k][0], high = below.planes[k + Dim][0];
+          for (std::size_t j = 1; j < kBlocks; ++j) {
+            low = min(low, below.planes[k][j]);
+            high = max(high, below.planes[k + Dim][j]);
+          }
           box[k] = std::min(std::min(low[0], low[1]), std::min(low[2], low[3]));
           box[k + Dim] = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
         }
       } else if (child != kUnused) {
+        Leaf& changed = leaves_[~static_cast<std::uint32_t>(child) >> 3];
+        set_pack(changed, primitive);
         Box bounds;
-        for_each_slot(child,
-                      [&](std::size_t slot) { bounds.extend(slots_[slot].primitive.box()); });
+        for (const Index i : changed.numbers) bounds.extend(primitive(i).box());
         box = float_box(bounds);
       } else {
         continue;

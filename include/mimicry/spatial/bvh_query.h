@@ -5,23 +5,25 @@
 namespace mimicry::spatial {
 
 template <int Dim, class PrimitiveType>
-std::int32_t Bvh<Dim, PrimitiveType>::push_all_but_nearest(const Node& node, unsigned hit,
-                                                           Float4 key, Entry* stack, int& top) {
+inline std::int32_t Bvh<Dim, PrimitiveType>::push_all_but_nearest(const Node& node, unsigned hit,
+                                                                  const Lanes& keys, Entry* stack,
+                                                                  int& top) {
+  const auto key = [&](int lane) { return keys[static_cast<std::size_t>(lane / 4)][lane % 4]; };
   const int first = __builtin_ctz(hit);
   hit &= hit - 1;
   std::int32_t nearest = node.children[static_cast<std::size_t>(first)];
   if (hit == 0) return nearest;
-  float nearest_key = key[first];
+  float nearest_key = key(first);
   const int base = top;
   do {
     const int lane = __builtin_ctz(hit);
     hit &= hit - 1;
-    Entry entry = {key[lane], node.children[static_cast<std::size_t>(lane)]};
+    Entry entry = {key(lane), node.children[static_cast<std::size_t>(lane)]};
     if (entry.key < nearest_key) {
       std::swap(entry.key, nearest_key);
       std::swap(entry.child, nearest);
     }
-    // At most three: the farthest lies deepest.
+    // A few: the farthest lies deepest.
     int at = top++;
     while (at > base && stack[at - 1].key < entry.key) {
       stack[at] = stack[at - 1];
@@ -35,7 +37,7 @@ std::int32_t Bvh<Dim, PrimitiveType>::push_all_but_nearest(const Node& node, uns
 template <int Dim, class PrimitiveType>
 template <class Visit>
 void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& visit) const {
-  if (slots_.empty()) return;
+  if (count_ == 0) return;
   const Point local = inside(y);
   // From afar a float cannot tell the boxes apart.
   if (!(local.cwiseAbs().maxCoeff() < 256.0)) return nearest_from_afar(y, bound2, visit);
@@ -46,6 +48,8 @@ void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& vis
   }
   const double scale2 = scale_ * scale_;
   float bound = bound_up(bound2 * scale2);
+  typename Pack::NearSieve sieve(y, scale_);
+  sieve.set_bound(bound);
 
   std::array<Entry, kStack> stack;
   int top = 0;
@@ -53,23 +57,37 @@ void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& vis
   while (true) {
     while (child >= 0) {
       const Node& node = nodes_[static_cast<std::size_t>(child)];
-      Float4 distance2 = splat(0.0F);
-      for (std::size_t k = 0; k < Dim; ++k) {
-        const Float4 d =
-            max(max(node.planes[k] - high[k], low[k] - node.planes[k + Dim]), splat(0.0F));
-        distance2 += d * d;
+      Lanes distance2;
+      unsigned hit = 0;
+      for (std::size_t j = 0; j < kBlocks; ++j) {
+        distance2[j] = splat(0.0F);
+        for (std::size_t k = 0; k < Dim; ++k) {
+          const Float4 d =
+              max(max(node.planes[k][j] - high[k], low[k] - node.planes[k + Dim][j]), splat(0.0F));
+          distance2[j] += d * d;
+        }
+        hit |= bits(distance2[j] <= splat(bound)) << (4 * j);
       }
-      const unsigned hit = bits(distance2 <= splat(bound));
       if (hit == 0) goto next;
       child = push_all_but_nearest(node, hit, distance2, stack.data(), top);
     }
-    for_each_slot(child, [&](std::size_t slot) {
-      const double smaller = visit(slots_[slot].number, slots_[slot].primitive, bound2);
-      if (smaller < bound2) {
+    {
+      const Leaf& l = leaf(child);
+      const auto consider = [&](Index i, const Primitive& primitive) {
+        const double smaller = visit(i, primitive, bound2);
+        if (!(smaller < bound2)) return;
         bound2 = smaller;
         bound = bound_up(bound2 * scale2);
+        sieve.set_bound(bound);
+      };
+      unsigned lanes = used_lanes(child);
+      // Without a bound there is nothing to sieve by: the first one gives it.
+      if (bound2 == kInfinity) {
+        consider(l.numbers[0], l.pack.get(0));
+        lanes &= ~1U;
       }
-    });
+      for_each_lane(l, lanes & l.pack.candidates(sieve), consider);
+    }
   next:
     do {
       if (top == 0) return;
@@ -100,9 +118,10 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
     const FarEntry entry = stack[--top];
     if (entry.key > limit(bound2)) continue;
     if (entry.child < 0) {
-      for_each_slot(entry.child, [&](std::size_t slot) {
-        bound2 = std::min(bound2, visit(slots_[slot].number, slots_[slot].primitive, bound2));
-      });
+      for_each_lane(leaf(entry.child), used_lanes(entry.child),
+                    [&](Index i, const Primitive& primitive) {
+                      bound2 = std::min(bound2, visit(i, primitive, bound2));
+                    });
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
@@ -112,9 +131,7 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
       if (child == kUnused) continue;
       double key = 0.0;
       for (int k = 0; k < Dim; ++k) {
-        const double low = static_cast<double>(node.planes[static_cast<std::size_t>(k)][lane]);
-        const double high =
-            static_cast<double>(node.planes[static_cast<std::size_t>(k + Dim)][lane]);
+        const double low = plane(node, k, lane), high = plane(node, k + Dim, lane);
         const double d = std::max({low - local[k] - pad, local[k] - high - pad, 0.0});
         key += d * d;
       }
@@ -129,7 +146,7 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
 template <int Dim, class PrimitiveType>
 template <class Visit>
 bool Bvh<Dim, PrimitiveType>::containing(const Point& y, Visit&& visit) const {
-  if (slots_.empty()) return false;
+  if (count_ == 0) return false;
   const Point local = inside(y);
   if (!(local.cwiseAbs().maxCoeff() <= 1.0)) return false;
   std::array<Float4, Dim> low, high;
@@ -143,17 +160,19 @@ bool Bvh<Dim, PrimitiveType>::containing(const Point& y, Visit&& visit) const {
   while (top > 0) {
     const std::int32_t child = stack[--top];
     if (child < 0) {
-      const std::uint32_t code = ~static_cast<std::uint32_t>(child);
-      for (std::size_t slot = code >> 3; slot <= (code >> 3) + (code & 7U); ++slot)
-        if (visit(slots_[slot].number, slots_[slot].primitive)) return true;
+      const Leaf& l = leaf(child);
+      for (unsigned lanes = used_lanes(child); lanes != 0; lanes &= lanes - 1)
+        if (visit(l.numbers[lowest_bit(lanes)], l.pack.get(lowest_bit(lanes)))) return true;
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(child)];
-    Mask4 in = Mask4{-1, -1, -1, -1};
-    for (std::size_t k = 0; k < Dim; ++k)
-      in &= (node.planes[k] <= high[k]) & (low[k] <= node.planes[k + Dim]);
-    for (unsigned hit = bits(in); hit != 0; hit &= hit - 1)
-      stack[top++] = node.children[static_cast<std::size_t>(__builtin_ctz(hit))];
+    for (std::size_t j = 0; j < kBlocks; ++j) {
+      Mask4 in = Mask4{-1, -1, -1, -1};
+      for (std::size_t k = 0; k < Dim; ++k)
+        in &= (node.planes[k][j] <= high[k]) & (low[k] <= node.planes[k + Dim][j]);
+      for (unsigned hit = bits(in); hit != 0; hit &= hit - 1)
+        stack[top++] = node.children[4 * j + lowest_bit(hit)];
+    }
   }
   return false;
 }
@@ -162,9 +181,10 @@ template <int Dim, class PrimitiveType>
 template <class Visit>
 void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction, double bound,
                                     Visit&& visit) const {
-  if (slots_.empty()) return;
+  if (count_ == 0) return;
   Point local = inside(origin);
   const double size = local.cwiseAbs().maxCoeff();
+  if (!(size <= 1e12)) return;
   // Covers the rounding of the primitive's own test, relative to its distance from the origin.
   const double pad = 8e-15 * (1.0 + size);
   Point inverse_direction;
@@ -187,7 +207,9 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
     if (!(local.cwiseAbs().maxCoeff() <= 4.0 + pad)) return;
   }
 
-  std::array<Float4, Dim> near_origin, away_origin, inverse;
+  // Near planes are met a little sooner and far ones a little later than computed.
+  constexpr double kShrink = 1.0 - 6e-7, kGrow = 1.0 + 6e-7;
+  std::array<Float4, Dim> near_origin, away_origin, near_inverse, away_inverse;
   std::array<std::size_t, Dim> near_plane, away_plane;
   for (int k = 0; k < Dim; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -197,11 +219,13 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
     away_plane[i] = is_up ? i + Dim : i;
     near_origin[i] = splat(is_up ? high : low);
     away_origin[i] = splat(is_up ? low : high);
-    inverse[i] = splat(static_cast<float>(inverse_direction[k]));
+    near_inverse[i] = splat(static_cast<float>(inverse_direction[k] * kShrink));
+    away_inverse[i] = splat(static_cast<float>(inverse_direction[k] * kGrow));
   }
-  const Float4 shrink = splat(1.0F - 6e-7F), grow = splat(1.0F + 6e-7F);
   const auto limit = [&](double b) { return bound_up(std::max(b * scale_ - enter, 0.0) + pad); };
   float float_bound = limit(bound);
+  typename Pack::RaySieve sieve(origin, direction, inverse_direction, scale_, 1.0 + size, pad);
+  sieve.set_bound(bound_up(bound * scale_ + pad));
 
   std::array<Entry, kStack> stack;
   int top = 0;
@@ -209,23 +233,32 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
   while (true) {
     while (child >= 0) {
       const Node& node = nodes_[static_cast<std::size_t>(child)];
-      Float4 near = splat(0.0F), away = splat(float_bound);
-      for (std::size_t k = 0; k < Dim; ++k) {
-        near = max(near, (node.planes[near_plane[k]] - near_origin[k]) * inverse[k]);
-        away = min(away, (node.planes[away_plane[k]] - away_origin[k]) * inverse[k] * grow);
+      Lanes near;
+      unsigned hit = 0;
+      for (std::size_t j = 0; j < kBlocks; ++j) {
+        near[j] = splat(0.0F);
+        Float4 away = splat(float_bound);
+        for (std::size_t k = 0; k < Dim; ++k) {
+          near[j] =
+              max(near[j], (node.planes[near_plane[k]][j] - near_origin[k]) * near_inverse[k]);
+          away = min(away, (node.planes[away_plane[k]][j] - away_origin[k]) * away_inverse[k]);
+        }
+        hit |= bits(near[j] <= away) << (4 * j);
       }
-      near *= shrink;
-      const unsigned hit = bits(near <= away);
       if (hit == 0) goto next;
       child = push_all_but_nearest(node, hit, near, stack.data(), top);
     }
-    for_each_slot(child, [&](std::size_t slot) {
-      const double smaller = visit(slots_[slot].number, slots_[slot].primitive, bound);
-      if (smaller < bound) {
-        bound = smaller;
-        float_bound = limit(bound);
-      }
-    });
+    {
+      const Leaf& l = leaf(child);
+      for_each_lane(l, l.pack.candidates(sieve) & used_lanes(child),
+                    [&](Index i, const Primitive& primitive) {
+                      const double smaller = visit(i, primitive, bound);
+                      if (!(smaller < bound)) return;
+                      bound = smaller;
+                      float_bound = limit(bound);
+                      sieve.set_bound(bound_up(bound * scale_ + pad));
+                    });
+    }
   next:
     do {
       if (top == 0) return;

@@ -18,6 +18,9 @@ inline Float4 min(Float4 a, Float4 b) {
 inline Float4 max(Float4 a, Float4 b) {
   return a > b ? a : b;
 }
+inline Float4 abs(Float4 a) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(a) & 0x7FFFFFFF);
+}
 /// Bit k is set where lane k of the comparison holds.
 inline unsigned bits(Mask4 m) {
 #if defined(__SSE2__)

@@ -34,7 +34,6 @@ NearestTriangle nearest_triangle(const Hierarchy& hierarchy, const Vec3& y, doub
                                  Index hint, GetTriangle&& triangle) {
   NearestTriangle best;
   const auto consider = [&](Index face, const Triangle& candidate, double bound) {
-    if (is_farther(candidate, y, bound)) return bound;
     const TrianglePoint p = closest_point(candidate, y);
     if (!(p.distance2 <= bound) || p.distance2 == kInfinity) return bound;
     if (p.distance2 < best.distance2 || (p.distance2 == best.distance2 && face < best.surface.face))

@@ -5,11 +5,13 @@
 #include <optional>
 
 #include <mimicry/base/types.h>
+#include <mimicry/spatial/triangle_pack.h>
 
 namespace mimicry::spatial {
 
 /// The triangle of the hierarchy over a surface.
 struct Triangle {
+  using Pack = TrianglePack<Triangle>;
   Vec3 a, b, c;
 
   Eigen::AlignedBox3d box() const { return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}; }
@@ -107,7 +109,8 @@ inline bool is_farther(const Triangle& t, const Vec3& y, double bound2) {
   return least > 0.0 && least * least > bound2 * way2;
 }
 
-inline TrianglePoint closest_point(const Triangle& t, const Vec3& y) {
+// Inline, so that corners taken from a pack stay in registers.
+[[gnu::always_inline]] inline TrianglePoint closest_point(const Triangle& t, const Vec3& y) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, bc = t.c - t.b, ay = y - t.a;
   const Vec3 n = ab.cross(ac);
   const double n2 = n.squaredNorm();
