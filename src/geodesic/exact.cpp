@@ -42,7 +42,7 @@ bool ExactGeodesics::State::reach_vertex(Index v, double distance, Index from) {
 
 // A window on half-edge h whose source lies on the side of h's face; all in the frame of h.
 void ExactGeodesics::State::add_window(Index h, double begin, double end, double x, double y,
-                                       double sigma, Index root) {
+                                       double sigma) {
   if (!half_edges.has_twin(h)) return;
   const EdgeFrame& f = frame(h);
   begin = std::max(begin, 0.0);
@@ -50,7 +50,6 @@ void ExactGeodesics::State::add_window(Index h, double begin, double end, double
   if (!(end - begin > 1e-11 * f.length)) return;
   Window w;
   w.sigma = sigma;
-  w.root = root;
   w.y = std::max(y, 1e-13 * f.length);
   w.entered = half_edges.twin(h);
   w.begin = begin;
@@ -81,7 +80,7 @@ void ExactGeodesics::State::propagate(const Window& window) {
   const double b1 = f.forward ? window.end : f.length - window.begin;
   const double x = f.forward ? window.x : f.length - window.x;
   spread({window.entered, Vec2(x, -window.y), Vec2(b0 - x, window.y), Vec2(b1 - x, window.y),
-          window.sigma, window.root, 0});
+          window.sigma, 0});
 }
 
 void ExactGeodesics::State::spread(const Fan& fan) {
@@ -134,9 +133,9 @@ void ExactGeodesics::State::spread(const Fan& fan) {
       if (twin >= 0 && fan.depth < kDeepest)
         spread({twin, Vec2(length - x, -std::max(y, 0.0)),
                 Vec2(-e.dot(left_ray), -cross(e, left_ray)),
-                Vec2(-e.dot(right_ray), -cross(e, right_ray)), fan.sigma, fan.root, fan.depth + 1});
+                Vec2(-e.dot(right_ray), -cross(e, right_ray)), fan.sigma, fan.depth + 1});
     }
-    add_window(h, begin, end, x, y, fan.sigma, fan.root);
+    add_window(h, begin, end, x, y, fan.sigma);
   };
   if (reaches_left) {
     // Where a ray meets the edge, from 0 at the tail of `entered` to 1 at the apex.
@@ -214,8 +213,8 @@ void ExactGeodesics::State::leave_vertex(Index v) {
           return {-std::sin(turn), std::cos(turn)};
         };
         spread({half_edges.twin(opposite), Vec2(f.length - f.apex_x, -f.apex_y), ray(to), ray(from),
-                d, v, 1});
-        add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d, v);
+                d, 1});
+        add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d);
         return;
       }
       const auto place = [&](double angle, double limit) {
@@ -223,10 +222,10 @@ void ExactGeodesics::State::leave_vertex(Index v) {
         return std::abs(turn) < 0.5 * kPi - 1e-9 ? f.apex_x + f.apex_y * std::tan(turn) : limit;
       };
       add_window(opposite, from > a0 ? place(from, 0.0) : 0.0,
-                 to < a1 ? place(to, f.length) : f.length, f.apex_x, f.apex_y, d, v);
+                 to < a1 ? place(to, f.length) : f.length, f.apex_x, f.apex_y, d);
     };
     if (everywhere && !is_on_opposite) {
-      add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d, v);
+      add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d);
     } else if (everywhere) {
       send(a0, a1);
     } else if (is_boundary) {
@@ -262,7 +261,7 @@ void ExactGeodesics::State::start(Index number) {
       if (h == own_edge || frame(h).length == 0.0) continue;
       const Vec3 along = (mesh.corner(face, (k + 1) % 3) - mesh.corner(face, k)) / frame(h).length;
       add_window(h, 0.0, frame(h).length, to_tail.dot(along), to_tail.cross(along).norm(),
-                 source.distance, -1 - number);
+                 source.distance);
     }
   };
   if (site.kind == Site::Kind::face) {

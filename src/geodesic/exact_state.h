@@ -46,7 +46,6 @@ struct ExactGeodesics::State {
     Vec2 left;
     Vec2 right;
     double sigma;
-    Index root;
     int depth;
   };
 
@@ -78,7 +77,7 @@ struct ExactGeodesics::State {
   void leave_vertex(Index v);
   void propagate(const Window& window);
   void spread(const Fan& fan);
-  void add_window(Index h, double begin, double end, double x, double y, double sigma, Index root);
+  void add_window(Index h, double begin, double end, double x, double y, double sigma);
 
   /// Position in the frame of half-edge h of a point of its face.
   Vec2 in_frame(Index h, const SurfacePoint& p) const;

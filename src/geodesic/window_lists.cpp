@@ -100,7 +100,7 @@ struct Comparison {
 }  // namespace
 
 void WindowLists::reset(std::size_t edge_count) {
-  windows_.clear();
+  used_ = 0;
   free_ = kNone;
   first_.assign(edge_count, kNone);
 }
@@ -116,8 +116,9 @@ Index WindowLists::append_after(Index edge, Index previous, const Window& window
     free_ = (*this)[i].next;
     (*this)[i] = window;
   } else {
-    i = static_cast<Index>(windows_.size());
-    windows_.push_back(window);
+    if (used_ == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<Window[]>(kBlock));
+    i = static_cast<Index>(used_++);
+    (*this)[i] = window;
   }
   Index& link = previous == kNone ? first_[static_cast<std::size_t>(edge)] : (*this)[previous].next;
   (*this)[i].next = link;

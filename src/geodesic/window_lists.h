@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <mimicry/base/types.h>
@@ -12,17 +13,16 @@ namespace mimicry::geodesic {
 /// (Mitchell, Mount and Papadimitriou 1987). Coordinates are along the edge from its tail (x) and
 /// away from it (y >= 0, on the side that the source lies on after unfolding).
 struct Window {
-  enum State : std::uint8_t { waiting, done, dead };
+  enum State : Index { dead = -1, waiting, done };  // two bits
 
   double begin = 0.0;
   double end = 0.0;
   double x = 0.0;  ///< the source
   double y = 0.0;
-  double sigma = 0.0;     ///< distance of the source itself
-  Index root = kNone;     ///< the source: a vertex, or -1 - number of a source that is no vertex
-  Index next = kNone;     ///< the window to the right on the same edge
-  Index entered = kNone;  ///< the edge's half-edge on the side away from the source
-  State state = waiting;
+  double sigma = 0.0;      ///< distance of the source itself
+  Index next = kNone;      ///< the window to the right on the same edge
+  Index entered : 30 = 0;  ///< the edge's half-edge on the side away from the source
+  Index state : 2 = waiting;
 
   double distance(double at) const { return sigma + std::sqrt((at - x) * (at - x) + y * y); }
   /// The least distance on the window.
@@ -42,20 +42,26 @@ class WindowLists {
   void insert(Index edge, double edge_length, const Window& window, std::vector<Index>& added);
 
   Index first(Index edge) const { return first_[static_cast<std::size_t>(edge)]; }
-  const Window& operator[](Index i) const { return windows_[static_cast<std::size_t>(i)]; }
-  Window& operator[](Index i) { return windows_[static_cast<std::size_t>(i)]; }
+  const Window& operator[](Index i) const {
+    return blocks_[static_cast<std::size_t>(i) / kBlock][static_cast<std::size_t>(i) % kBlock];
+  }
+  Window& operator[](Index i) {
+    return blocks_[static_cast<std::size_t>(i) / kBlock][static_cast<std::size_t>(i) % kBlock];
+  }
   /// To be called for a dead window when nothing refers to it any more.
   void release(Index i);
 
-  std::size_t capacity_used() const { return windows_.size(); }
   std::size_t memory_bytes() const {
-    return windows_.capacity() * sizeof(Window) + first_.capacity() * sizeof(Index);
+    return blocks_.size() * kBlock * sizeof(Window) + first_.capacity() * sizeof(Index);
   }
 
  private:
   Index append_after(Index edge, Index previous, const Window& window);
 
-  std::vector<Window> windows_;
+  // In blocks, so that growing neither copies nor holds memory twice.
+  static constexpr std::size_t kBlock = 4096;
+  std::vector<std::unique_ptr<Window[]>> blocks_;
+  std::size_t used_ = 0;
   std::vector<Index> first_;  // #E
   Index free_ = kNone;
 };
