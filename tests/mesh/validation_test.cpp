@@ -164,7 +164,7 @@ TEST(Validate, DuplicateFacesInAnyOrder) {
   EXPECT_EQ(report.duplicate_faces.count, 3);
   EXPECT_EQ(report.duplicate_faces.first, 2);
   EXPECT_EQ(report.duplicate_faces.first_copy_of, 1);
-  EXPECT_EQ(report.nonmanifold_edges.count, 3);  // 0-1, 1-2, 2-0; 1-2 has five faces
+  EXPECT_EQ(report.nonmanifold_edges.count, 3);   // 0-1, 1-2, 2-0; 1-2 has five faces
   EXPECT_EQ(report.inconsistent_edges.count, 2);  // 1-3 and 3-2
 }
 
@@ -220,6 +220,18 @@ TEST(Validate, AnyConnectivityIsReportedAndAgreesWithHalfEdges) {
     for (const ComponentReport& part : report.components) in_components += part.faces;
     EXPECT_EQ(in_components + report.repeated_corners.count, report.faces);
   }
+}
+
+// Under floating-point traps, too: neither box nor report computes with what is not finite.
+TEST(BoundingBox, PassesOverWhatIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const TriangleMesh mesh({Vec3(0, 0, 0), Vec3(1, 2, 0), Vec3(0, 1, -3), Vec3(kInfinity, 0, 0),
+                           Vec3(9, -kInfinity, 9), Vec3(9, nan, 9)},
+                          {{0, 1, 2}});
+  const Eigen::AlignedBox3d box = bounding_box(mesh);
+  EXPECT_EQ(box.min(), Vec3(0, 0, -3));
+  EXPECT_EQ(box.max(), Vec3(1, 2, 0));
+  EXPECT_EQ(validate(mesh).invalid_vertices.count, 3);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,54 @@ TEST(Triangle, RayHitsAtTheKnownPlace) {
 TEST(Triangle, EdgeOnIsNoHit) {
   const Triangle t = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   EXPECT_FALSE(Ray(Vec3(-1, 0.25, 0), Vec3(1, 0, 0)).hit(t).has_value());
+}
+
+// Corners, points of sides and near misses, from near and far, for large and tiny triangles.
+TEST(TrianglePack, NeverDropsWhatTheExactTestsAccept) {
+  Random random(34);
+  int kept = 0, dropped = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, uniform(random, -9.0, 0.0));
+    const Vec3 place = uniform_vector(random, 0.5);
+    Triangle::Pack pack;
+    std::array<Triangle, 4> triangles;
+    for (int lane = 0; lane < 4; ++lane) {
+      Triangle& t = triangles[static_cast<std::size_t>(lane)];
+      t = {place + uniform_vector(random, size), place + uniform_vector(random, size),
+           place + uniform_vector(random, size)};
+      if (i % 5 == 0) t.c = t.a + 0.3 * (t.b - t.a) + uniform_vector(random, 1e-12 * size);
+      pack.set(lane, t);
+    }
+    const double s = random() % 3 == 0 ? 0.0 : uniform(random, 0.0, 1.0);
+    const Vec3 aim = triangles[0].a + s * (triangles[0].b - triangles[0].a) +
+                     uniform_vector(random, i % 2 == 0 ? 0.0 : 1e-7);
+    const Vec3 y = aim + uniform_vector(random, std::pow(10.0, uniform(random, -9.0, 1.0)));
+    const double bound2 = closest_point(triangles[0], y).distance2;
+    if (bound2 < 1e30) {
+      Triangle::Pack::NearSieve near(y, 1.0);
+      near.set_bound(std::nextafter(static_cast<float>(bound2), 1e30F));
+      const unsigned lanes = pack.candidates(near);
+      for (unsigned lane = 0; lane < 4; ++lane) {
+        const bool in = closest_point(triangles[lane], y).distance2 <= bound2;
+        ASSERT_TRUE(!in || (lanes >> lane & 1U) != 0) << "size " << size;
+        ++((lanes >> lane & 1U) != 0 ? kept : dropped);
+      }
+    }
+    const Vec3 direction = (aim - y).normalized();
+    const Ray ray(y, direction);
+    const double far = (y - place).cwiseAbs().maxCoeff() + 2.0;
+    Vec3 inverse;
+    for (int k = 0; k < 3; ++k)
+      inverse[k] = 1.0 / std::copysign(std::max(std::abs(direction[k]), 1e-18), direction[k]);
+    Triangle::Pack::RaySieve sieve(y, direction, inverse, 1.0, far, 8e-15 * far);
+    sieve.set_bound(1e30F);
+    const unsigned lanes = pack.candidates(sieve);
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      ASSERT_TRUE(!ray.hit(triangles[lane]) || (lanes >> lane & 1U) != 0) << "size " << size;
+      ++((lanes >> lane & 1U) != 0 ? kept : dropped);
+    }
+  }
+  EXPECT_GT(dropped, kept / 10);  // it sieves at all
 }
 
 }  // namespace
