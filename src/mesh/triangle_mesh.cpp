@@ -28,6 +28,10 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
     throw Error(ErrorKind::invalid_input, "mesh: " + std::to_string(polygons_.size()) +
                                               " polygon numbers for " +
                                               std::to_string(faces_.size()) + " faces");
+  // Kept for long: without the room that arrays grow by.
+  positions_.shrink_to_fit();
+  faces_.shrink_to_fit();
+  polygons_.shrink_to_fit();
 }
 
 TriangleMesh TriangleMesh::with_positions(std::vector<Vec3> positions) const {
