@@ -234,7 +234,7 @@ TEST(MimicryLive, SameBitsAndNoAllocation) {
   for (const bool again : {false, true}) {
     Random random(61);
     Memory memory = anchored_at(target, Vec3(0.1, 0.2, 1.0));
-    const long before = testing::allocation_count();
+    const long before = test::allocation_count();
     for (std::size_t i = 0; i < 2000; ++i) {
       const Vec3 motion = 0.03 * Vec3(random.normal(), random.normal(), random.normal());
       const Step step = technique.step(canvas, memory, moved(memory, motion), soft());
@@ -247,7 +247,7 @@ TEST(MimicryLive, SameBitsAndNoAllocation) {
         ASSERT_EQ(step.surface.face, first[i].surface.face) << i;
       }
     }
-    EXPECT_EQ(testing::allocation_count(), before);
+    EXPECT_EQ(test::allocation_count(), before);
   }
   EXPECT_TRUE(walked) << "the mesh is not rough enough to test the last resort";
 }
