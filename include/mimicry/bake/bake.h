@@ -1,0 +1,30 @@
+#pragma once
+
+#include <mimicry/base/parallel.h>
+#include <mimicry/embedding/embedding.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::bake {
+
+using embedding::BakeOptions;
+using embedding::BakeQuality;
+using embedding::Embedding;
+
+/// Bakes a target for smooth closest points (Panozzo, Baran, Diamanti, Sorkine-Hornung, Weighted
+/// Averages on Surfaces, 2013, section 4; Arora and Singh 2021, 3.2): a shell of tetrahedra around
+/// it, samples and their geodesic distances, their embedding by multidimensional scaling, and the
+/// other vertices by a least-squares mesh.
+///
+/// Any mesh with some area is baked: boundaries, several components, thin or doubled sheets,
+/// needles, self-intersections, non-manifold edges. `quality` says what came of it; where the mesh
+/// cannot be made to stand in the shell's tetrahedra the shell is a lattice. Throws
+/// Error(invalid_input) for a mesh without area or with vertices that are not finite and for
+/// options out of range (dimension 3 .. 64, samples 1 .. 20,000, offset 1e-3 .. 0.5),
+/// Error(cancelled) when `progress` returns false.
+///
+/// Stages reported, in this order: shell, (lattice,) samples, distances, mds, ls-mesh, done. The
+/// same bits whatever the number of threads. About 0.2 ms a vertex of the mesh and 20 kB.
+Embedding bake(const TriangleMesh& mesh, const BakeOptions& options = {}, int threads = 1,
+               const ProgressCallback& progress = {});
+
+}  // namespace mimicry::bake

@@ -1,0 +1,292 @@
+#include "bake/block_pcg.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+namespace mimicry::bake {
+namespace {
+
+constexpr std::size_t kChunk = 2048;  // rows of a vector that one thread takes at a time
+using Sums = std::array<double, kBlock>;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+// y = a x by rows.
+void multiply(const SparseRows& a, const BlockVector& x, BlockVector& y, Executor& executor) {
+  executor.for_chunks(at(a.rows()), kChunk, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Sums sum{};
+      for (std::size_t k = at(a.start[i]); k < at(a.start[i + 1]); ++k) {
+        const double* row = &x[at(a.column[k]) * kBlock];
+        const double value = a.value[k];
+        for (std::size_t c = 0; c < kBlock; ++c) sum[c] += value * row[c];
+      }
+      std::copy(sum.begin(), sum.end(), &y[i * kBlock]);
+    }
+  });
+}
+
+// Sums over the rows of what `term(row index, sums)` adds: chunk by chunk, then over the chunks.
+template <class Term>
+Sums reduce(std::size_t rows, Executor& executor, Term&& term) {
+  std::vector<Sums> partial((rows + kChunk - 1) / kChunk, Sums{});
+  executor.for_chunks(rows, kChunk, [&](std::size_t begin, std::size_t end, int) {
+    Sums sum{};
+    for (std::size_t i = begin; i < end; ++i) term(i, sum);
+    partial[begin / kChunk] = sum;
+  });
+  Sums total{};
+  for (const Sums& p : partial)
+    for (std::size_t c = 0; c < kBlock; ++c) total[c] += p[c];
+  return total;
+}
+
+}  // namespace
+
+SparseRows transpose(const SparseRows& a, Index columns) {
+  SparseRows t;
+  t.start.assign(at(columns) + 1, 0);
+  for (const Index c : a.column) ++t.start[at(c) + 1];
+  for (std::size_t c = 0; c < at(columns); ++c) t.start[c + 1] += t.start[c];
+  t.column.resize(a.column.size());
+  t.value.resize(a.value.size());
+  std::vector<Index> fill(t.start.begin(), t.start.end() - 1);
+  for (Index r = 0; r < a.rows(); ++r)
+    for (std::size_t k = at(a.start[at(r)]); k < at(a.start[at(r) + 1]); ++k) {
+      const auto slot = at(fill[at(a.column[k])]++);
+      t.column[slot] = r;
+      t.value[slot] = a.value[k];
+    }
+  return t;
+}
+
+BlockPcg::BlockPcg(SparseRows g, Index unknowns, Executor& executor)
+    : unknowns_(unknowns), executor_(executor), g_(std::move(g)) {
+  scale_.assign(at(unknowns), 0.0);
+  for (std::size_t k = 0; k < g_.column.size(); ++k)
+    scale_[at(g_.column[k])] += g_.value[k] * g_.value[k];
+  for (double& s : scale_) s = s > 0.0 ? 1.0 / std::sqrt(s) : 0.0;
+  for (std::size_t k = 0; k < g_.column.size(); ++k) g_.value[k] *= scale_[at(g_.column[k])];
+  gt_ = transpose(g_, unknowns);
+  assemble();
+  constexpr float kFirstShift = 8e-3F;
+  constexpr float kGrowth = 2.0F;
+  for (shift_ = kFirstShift; !factor(shift_); shift_ *= kGrowth) {
+  }
+  lower_ = {};
+}
+
+void BlockPcg::assemble() {
+  // Two parts can be solved with at the same time; more would cost iterations.
+  constexpr Index kSmall = 8192;
+  part_start_ = {0, unknowns_};
+  if (unknowns_ > kSmall) part_start_ = {0, unknowns_ / 2, unknowns_};
+
+  // Once for the pattern, once for the values: chunks write to places of their own.
+  const auto part_begin = [&](std::size_t i) {
+    return part_start_.size() == 3 && i >= at(part_start_[1]) ? part_start_[1] : 0;
+  };
+  struct Row {
+    std::vector<double> sum;
+    std::vector<Index> seen;
+    std::vector<Index> columns;
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(executor_.threads()));
+  const auto visit = [&](std::size_t i, Row& row, bool values) {
+    row.columns.clear();
+    const Index first = part_begin(i);
+    for (std::size_t k = at(gt_.start[i]); k < at(gt_.start[i + 1]); ++k) {
+      const std::size_t r = at(gt_.column[k]);
+      const double value = gt_.value[k];
+      for (std::size_t l = at(g_.start[r]); l < at(g_.start[r + 1]); ++l) {
+        const Index j = g_.column[l];
+        if (static_cast<std::size_t>(j) > i) break;
+        if (j < first) continue;
+        if (row.seen[at(j)] != static_cast<Index>(i)) {
+          row.seen[at(j)] = static_cast<Index>(i);
+          row.columns.push_back(j);
+          row.sum[at(j)] = 0.0;
+        }
+        if (values) row.sum[at(j)] += value * g_.value[l];
+      }
+    }
+    // An unknown that no row speaks of stays as it starts.
+    if (row.columns.empty() || row.seen[i] != static_cast<Index>(i)) {
+      row.columns.push_back(static_cast<Index>(i));
+      row.sum[i] = 1.0;
+    }
+  };
+  const auto each_row = [&](auto&& body) {
+    for (Row& row : rows) {
+      row.sum.assign(at(unknowns_), 0.0);
+      row.seen.assign(at(unknowns_), kNone);
+    }
+    executor_.for_chunks(at(unknowns_), kChunk, [&](std::size_t begin, std::size_t end, int w) {
+      for (std::size_t i = begin; i < end; ++i) body(i, rows[static_cast<std::size_t>(w)]);
+    });
+  };
+  lower_start_.assign(at(unknowns_) + 1, 0);
+  each_row([&](std::size_t i, Row& row) {
+    visit(i, row, false);
+    lower_start_[i + 1] = static_cast<Index>(row.columns.size());
+  });
+  for (std::size_t i = 0; i < at(unknowns_); ++i) lower_start_[i + 1] += lower_start_[i];
+  lower_column_.resize(at(lower_start_.back()));
+  lower_.resize(lower_column_.size());
+  each_row([&](std::size_t i, Row& row) {
+    visit(i, row, true);
+    std::sort(row.columns.begin(), row.columns.end());
+    auto slot = at(lower_start_[i]);
+    for (const Index j : row.columns) {
+      lower_column_[slot] = j;
+      lower_[slot++] = static_cast<float>(row.sum[at(j)]);
+    }
+  });
+}
+
+// False where a pivot fails: the shift is too small.
+bool BlockPcg::factor(float shift) {
+  constexpr float kLeastPivot = 1e-3F;  // against a diagonal of 1
+  factor_.resize(lower_.size());
+  std::atomic<bool> good{true};
+  executor_.for_chunks(part_start_.size() - 1, 1, [&](std::size_t part, std::size_t, int) {
+    std::vector<float> row(at(unknowns_), 0.0F);  // row i of the factor, spread out
+    for (auto i = at(part_start_[part]); i < at(part_start_[part + 1]); ++i) {
+      if (!good.load(std::memory_order_relaxed)) return;
+      const auto begin = at(lower_start_[i]), last = at(lower_start_[i + 1]) - 1;
+      for (std::size_t k = begin; k < last; ++k) row[at(lower_column_[k])] = lower_[k];
+      float pivot = lower_[last] + shift;
+      for (std::size_t k = begin; k < last; ++k) {
+        const auto j = at(lower_column_[k]);
+        const auto j_last = at(lower_start_[j + 1]) - 1;
+        float value = row[j];
+        for (std::size_t l = at(lower_start_[j]); l < j_last; ++l)
+          value -= factor_[l] * row[at(lower_column_[l])];
+        value *= factor_[j_last];
+        row[j] = value;
+        factor_[k] = value;
+        pivot -= value * value;
+      }
+      for (std::size_t k = begin; k < last; ++k) row[at(lower_column_[k])] = 0.0F;
+      if (!(pivot > kLeastPivot * shift)) {
+        good.store(false, std::memory_order_relaxed);
+        return;
+      }
+      factor_[last] = 1.0F / std::sqrt(pivot);
+    }
+  });
+  return good.load();
+}
+
+void BlockPcg::precondition(const BlockVector& r, std::vector<float>& z) const {
+  using Floats = std::array<float, kBlock>;
+  executor_.for_chunks(part_start_.size() - 1, 1, [&](std::size_t part, std::size_t, int) {
+    const auto first = at(part_start_[part]), end = at(part_start_[part + 1]);
+    for (auto i = first; i < end; ++i) {
+      Floats sum;
+      for (std::size_t c = 0; c < kBlock; ++c) sum[c] = static_cast<float>(r[i * kBlock + c]);
+      const auto last = at(lower_start_[i + 1]) - 1;
+      for (auto k = at(lower_start_[i]); k < last; ++k) {
+        const float* row = &z[at(lower_column_[k]) * kBlock];
+        for (std::size_t c = 0; c < kBlock; ++c) sum[c] -= factor_[k] * row[c];
+      }
+      for (std::size_t c = 0; c < kBlock; ++c) z[i * kBlock + c] = sum[c] * factor_[last];
+    }
+    for (auto i = end; i-- > first;) {
+      const auto last = at(lower_start_[i + 1]) - 1;
+      Floats value;
+      for (std::size_t c = 0; c < kBlock; ++c) value[c] = z[i * kBlock + c] *= factor_[last];
+      for (auto k = at(lower_start_[i]); k < last; ++k) {
+        float* row = &z[at(lower_column_[k]) * kBlock];
+        for (std::size_t c = 0; c < kBlock; ++c) row[c] -= factor_[k] * value[c];
+      }
+    }
+  });
+}
+
+BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double tolerance,
+                                 int most_iterations, const ProgressCallback& progress) const {
+  const std::size_t n = at(unknowns_);
+  // In scaled unknowns y = x / scale.
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < kBlock; ++c)
+      if (scale_[i] > 0.0) x[i * kBlock + c] /= scale_[i];
+
+  BlockVector image(at(g_.rows()) * kBlock), r(n * kBlock), p(n * kBlock), q(n * kBlock);
+  multiply(gt_, g, q, executor_);
+  Sums right = reduce(n, executor_, [&](std::size_t i, Sums& sum) {
+    for (std::size_t c = 0; c < kBlock; ++c) sum[c] += q[i * kBlock + c] * q[i * kBlock + c];
+  });
+  // Columns that are next to nothing beside the others need not be solved to their own last digit.
+  constexpr double kNegligible = 1e-8;
+  const double largest = *std::max_element(right.begin(), right.end());
+  for (double& square : right) square = std::max(square, kNegligible * largest);
+  multiply(g_, x, image, executor_);
+  for (std::size_t k = 0; k < image.size(); ++k) image[k] = g[k] - image[k];
+  multiply(gt_, image, r, executor_);
+
+  std::vector<float> z(n * kBlock);
+  Sums rho{};
+  Result result;
+  result.converged = false;
+  for (;; ++result.iterations) {
+    const Sums squares = reduce(n, executor_, [&](std::size_t i, Sums& sum) {
+      for (std::size_t c = 0; c < kBlock; ++c) sum[c] += r[i * kBlock + c] * r[i * kBlock + c];
+    });
+    std::array<bool, kBlock> active{};
+    double worst = 0.0;
+    for (std::size_t c = 0; c < kBlock; ++c) {
+      active[c] = squares[c] > tolerance * tolerance * right[c];
+      if (active[c] && right[c] > 0.0) worst = std::max(worst, squares[c] / right[c]);
+    }
+    if (std::none_of(active.begin(), active.end(), [](bool a) { return a; })) {
+      result.converged = true;
+      break;
+    }
+    if (result.iterations == most_iterations) break;
+    // The residual falls about evenly on a logarithmic scale.
+    report(progress, "ls-mesh",
+           std::clamp(0.5 * std::log(std::max(worst, 1e-300)) / std::log(tolerance), 0.0, 1.0));
+
+    precondition(r, z);
+    const Sums fresh = reduce(n, executor_, [&](std::size_t i, Sums& sum) {
+      for (std::size_t c = 0; c < kBlock; ++c)
+        sum[c] += r[i * kBlock + c] * static_cast<double>(z[i * kBlock + c]);
+    });
+    Sums beta{};
+    for (std::size_t c = 0; c < kBlock; ++c)
+      beta[c] = result.iterations > 0 && rho[c] > 0.0 ? fresh[c] / rho[c] : 0.0;
+    rho = fresh;
+    executor_.for_chunks(n, kChunk, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t c = 0; c < kBlock; ++c)
+          p[i * kBlock + c] = static_cast<double>(z[i * kBlock + c]) + beta[c] * p[i * kBlock + c];
+    });
+    multiply(g_, p, image, executor_);
+    multiply(gt_, image, q, executor_);
+    const Sums curvature = reduce(n, executor_, [&](std::size_t i, Sums& sum) {
+      for (std::size_t c = 0; c < kBlock; ++c) sum[c] += p[i * kBlock + c] * q[i * kBlock + c];
+    });
+    Sums alpha{};
+    for (std::size_t c = 0; c < kBlock; ++c)
+      if (active[c] && curvature[c] > 0.0) alpha[c] = rho[c] / curvature[c];
+    executor_.for_chunks(n, kChunk, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t c = 0; c < kBlock; ++c) {
+          x[i * kBlock + c] += alpha[c] * p[i * kBlock + c];
+          r[i * kBlock + c] -= alpha[c] * q[i * kBlock + c];
+        }
+    });
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < kBlock; ++c)
+      if (scale_[i] > 0.0) x[i * kBlock + c] *= scale_[i];
+  return result;
+}
+
+}  // namespace mimicry::bake

@@ -1,0 +1,36 @@
+#include <cstring>
+
+#include <mimicry/embedding/embedding.h>
+
+namespace mimicry::embedding {
+namespace {
+
+// Mixes one word into the state: multiply and fold, after the finaliser of MurmurHash3.
+std::uint64_t mix(std::uint64_t state, std::uint64_t word) {
+  state ^= word * 0x9e3779b97f4a7c15U;
+  state ^= state >> 32;
+  state *= 0xff51afd7ed558ccdU;
+  state ^= state >> 29;
+  state *= 0xc4ceb9fe1a85ec53U;
+  return state ^ state >> 32;
+}
+
+std::uint64_t word(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+}  // namespace
+
+std::uint64_t content_hash(const TriangleMesh& mesh) {
+  std::uint64_t state = mix(static_cast<std::uint64_t>(mesh.vertex_count()),
+                            static_cast<std::uint64_t>(mesh.face_count()));
+  for (const Vec3& p : mesh.positions())
+    for (int k = 0; k < 3; ++k) state = mix(state, word(p[k]));
+  for (const Face& f : mesh.faces())
+    for (const Index v : f) state = mix(state, static_cast<std::uint64_t>(v));
+  return state;
+}
+
+}  // namespace mimicry::embedding

@@ -1,0 +1,244 @@
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <mimicry/bake/ls_mesh.h>
+#include <mimicry/mesh/shapes.h>
+
+namespace mimicry::bake {
+namespace {
+
+struct Cloud {
+  std::vector<Vec3> positions;
+  std::vector<Tet> tets;
+};
+
+// Random points of the unit cube and their Delaunay tetrahedra.
+Cloud random_cloud(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<std::int32_t> coordinate(0, (1 << kGridBits) - 1);
+  std::vector<GridPoint> grid(static_cast<std::size_t>(count));
+  Cloud cloud;
+  for (GridPoint& p : grid) {
+    p = {coordinate(random), coordinate(random), coordinate(random)};
+    cloud.positions.push_back(Vec3(p[0], p[1], p[2]) * 0x1p-24);
+  }
+  Delaunay d;
+  d.insert(grid);
+  cloud.tets = d.tets();
+  return cloud;
+}
+
+Eigen::RowVectorXd linear(const Vec3& p, Eigen::Index dimension) {
+  Eigen::RowVectorXd value(dimension);
+  for (Eigen::Index k = 0; k < dimension; ++k)
+    value[k] = 0.3 + (static_cast<double>(k) - 2.0) * p.x() + 0.5 * p.y() - p.z();
+  return value;
+}
+
+std::vector<Index> every(Index step, std::size_t count) {
+  std::vector<Index> out;
+  for (Index v = 0; v < static_cast<Index>(count); v += step) out.push_back(v);
+  return out;
+}
+
+TEST(LsMesh, FlatnessByDefinition) {
+  const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+  EXPECT_FALSE(is_flat(a, b, c, {0, 0, 1}));
+  EXPECT_TRUE(is_flat(a, b, c, {0, 0, -1}));
+  // Longest edge sqrt 2: the limit is at the height 6e-2 * 2 sqrt 2.
+  EXPECT_FALSE(is_flat(a, b, c, {0.3, 0.3, 1.01 * 6e-2 * std::pow(2.0, 1.5)}));
+  EXPECT_TRUE(is_flat(a, b, c, {0.3, 0.3, 0.99 * 6e-2 * std::pow(2.0, 1.5)}));
+}
+
+TEST(LsMesh, LinearFunctionsInsideAFixedBoundaryLayer) {
+  // L x vanishes at inner vertices for linear x, and it is the only x with all of its energy there:
+  // with the outer layers fixed the inside must be linear, up to flat tetrahedra that are left out
+  // of L without harm to it when none touches the unknowns' rows.
+  std::vector<GridPoint> grid;
+  Cloud cloud;
+  std::mt19937 random(2);
+  std::uniform_int_distribution<std::int32_t> jitter(-30000, 30000);
+  constexpr std::int32_t kStep = 1 << 20;
+  for (std::int32_t x = 0; x < 9; ++x)
+    for (std::int32_t y = 0; y < 9; ++y)
+      for (std::int32_t z = 0; z < 9; ++z)
+        for (const std::int32_t half : {0, kStep / 2}) {
+          const GridPoint p = {(x + 1) * kStep + half + jitter(random),
+                               (y + 1) * kStep + half + jitter(random),
+                               (z + 1) * kStep + half + jitter(random)};
+          grid.push_back(p);
+          cloud.positions.push_back(Vec3(p[0], p[1], p[2]) * 0x1p-24);
+        }
+  Delaunay d;
+  d.insert(grid);
+  cloud.tets = d.tets();
+  std::vector<Index> fixed;
+  for (std::size_t v = 0; v < cloud.positions.size(); ++v) {
+    const Vec3 p = cloud.positions[v] * 16.0 - Vec3::Constant(5.25);
+    if (p.cwiseAbs().maxCoeff() > 2.2) fixed.push_back(static_cast<Index>(v));
+  }
+  ASSERT_LT(fixed.size(), cloud.positions.size() - 80);
+  Values values(static_cast<Eigen::Index>(fixed.size()), 8);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    values.row(static_cast<Eigen::Index>(k)) =
+        linear(cloud.positions[static_cast<std::size_t>(fixed[k])], 8);
+  Executor executor;
+  const LsMeshResult result = ls_mesh(
+      {.positions = cloud.positions, .tets = cloud.tets, .fixed = fixed, .fixed_values = &values},
+      {.tolerance = 1e-10}, executor);
+  EXPECT_TRUE(result.converged);
+  for (std::size_t v = 0; v < cloud.positions.size(); ++v)
+    EXPECT_LT((result.values.row(static_cast<Eigen::Index>(v)) - linear(cloud.positions[v], 8))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-7);
+}
+
+// The energy by its definition, dense.
+double energy(const Cloud& cloud, const Values& x) {
+  Values image = Values::Zero(x.rows(), x.cols());
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(x.rows());
+  for (const Tet& t : cloud.tets) {
+    std::array<Vec3, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = cloud.positions[static_cast<std::size_t>(t[k])];
+    if (is_flat(p[0], p[1], p[2], p[3])) continue;
+    Eigen::Matrix4d m;
+    for (int k = 0; k < 4; ++k) m.row(k) << 1.0, p[static_cast<std::size_t>(k)].transpose();
+    const Eigen::Matrix4d hats = m.inverse();  // column k: hat function of corner k
+    const double volume = std::abs(m.determinant()) / 6.0;
+    for (int i = 0; i < 4; ++i) {
+      mass[t[static_cast<std::size_t>(i)]] += volume / 4.0;
+      for (int j = 0; j < 4; ++j)
+        image.row(t[static_cast<std::size_t>(i)]) +=
+            volume * hats.col(i).tail<3>().dot(hats.col(j).tail<3>()) *
+            x.row(t[static_cast<std::size_t>(j)]);
+    }
+  }
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    if (mass[i] > 0.0) sum += image.row(i).squaredNorm() / mass[i];
+  return sum;
+}
+
+TEST(LsMesh, MinimisesTheEnergyAndKeepsTheSamples) {
+  const Cloud cloud = random_cloud(400, 5);
+  const std::vector<Index> fixed = every(7, cloud.positions.size());
+  Values values(static_cast<Eigen::Index>(fixed.size()), 3);
+  for (Eigen::Index k = 0; k < values.rows(); ++k) {
+    const Vec3& p = cloud.positions[static_cast<std::size_t>(fixed[static_cast<std::size_t>(k)])];
+    values.row(k) << std::sin(5 * p.x()), p.y() * p.z(), p.x() + p.y();
+  }
+  Executor executor;
+  const LsMeshResult result = ls_mesh(
+      {.positions = cloud.positions, .tets = cloud.tets, .fixed = fixed, .fixed_values = &values},
+      {.tolerance = 1e-10, .most_iterations = 2000}, executor);
+  ASSERT_TRUE(result.converged);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    EXPECT_TRUE(result.values.row(fixed[k]) == values.row(static_cast<Eigen::Index>(k)));
+  // Along any direction that keeps the samples the energy is a parabola with its bottom here.
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  Values direction(result.values.rows(), 3);
+  for (Eigen::Index k = 0; k < direction.size(); ++k) direction.data()[k] = normal(random);
+  for (const Index v : fixed) direction.row(v).setZero();
+  const double here = energy(cloud, result.values);
+  const double ahead = energy(cloud, result.values + 1e-3 * direction);
+  const double behind = energy(cloud, result.values - 1e-3 * direction);
+  EXPECT_GT(ahead, here);
+  EXPECT_GT(behind, here);
+  EXPECT_NEAR((ahead - behind) / (ahead + behind - 2.0 * here), 0.0, 1e-4);
+}
+
+TEST(LsMesh, TiedVerticesAreEliminated) {
+  const Cloud cloud = random_cloud(300, 6);
+  const std::vector<Index> fixed = every(11, cloud.positions.size());
+  Values values(static_cast<Eigen::Index>(fixed.size()), 8);
+  for (Eigen::Index k = 0; k < values.rows(); ++k)
+    values.row(k) =
+        linear(cloud.positions[static_cast<std::size_t>(fixed[static_cast<std::size_t>(k)])], 8)
+            .array()
+            .sin();
+  const std::vector<Tie> ties = {
+      {.vertex = 5, .corners = {0, 8, kNone}, .weights = {0.25, 0.75, 0}},
+      {.vertex = 9, .corners = {1, 2, 11}, .weights = {0.2, 0.3, 0.5}}};
+  Executor executor;
+  const LsMeshResult result = ls_mesh({.positions = cloud.positions,
+                                       .tets = cloud.tets,
+                                       .ties = ties,
+                                       .fixed = fixed,
+                                       .fixed_values = &values},
+                                      {.tolerance = 1e-9, .most_iterations = 2000}, executor);
+  ASSERT_TRUE(result.converged);
+  const Values& x = result.values;
+  EXPECT_LT((x.row(5) - 0.25 * x.row(0) - 0.75 * x.row(8)).norm(), 1e-14);
+  EXPECT_LT((x.row(9) - 0.2 * x.row(1) - 0.3 * x.row(2) - 0.5 * x.row(11)).norm(), 1e-14);
+  // Still a minimum along a direction that respects the ties.
+  Values direction = Values::Zero(x.rows(), x.cols());
+  direction.row(8).setOnes();
+  direction.row(2).setConstant(-0.5);
+  direction.row(5) = 0.75 * direction.row(8);
+  direction.row(9) = 0.3 * direction.row(2);
+  const double here = energy(cloud, x);
+  const double ahead = energy(cloud, x + 1e-2 * direction);
+  const double behind = energy(cloud, x - 1e-2 * direction);
+  EXPECT_NEAR((ahead - behind) / (ahead + behind - 2.0 * here), 0.0, 1e-3);
+}
+
+TEST(LsMesh, SoftConstraintsPullWhereTheyAreStrong) {
+  const Cloud cloud = random_cloud(300, 8);
+  Values wished(2, 8);
+  wished.row(0).setConstant(1.0);
+  wished.row(1).setConstant(-2.0);
+  std::vector<SoftConstraint> soft(2);
+  soft[0] = {
+      .vertices = {3, 4, kNone, kNone}, .weights = {0.5, 0.5, 0.0, 0.0}, .strength = 1e3, .row = 0};
+  soft[1] = {.vertices = {100, kNone, kNone, kNone},
+             .weights = {1.0, 0.0, 0.0, 0.0},
+             .strength = 1e3,
+             .row = 1};
+  Executor executor;
+  const LsMeshResult result = ls_mesh(
+      {.positions = cloud.positions, .tets = cloud.tets, .soft = soft, .soft_values = &wished},
+      {.tolerance = 1e-9, .most_iterations = 3000}, executor);
+  EXPECT_NEAR(0.5 * (result.values(3, 0) + result.values(4, 0)), 1.0, 1e-3);
+  EXPECT_NEAR(result.values(100, 7), -2.0, 1e-3);
+}
+
+TEST(LsMesh, SurfacesWorkToo) {
+  // Planar and linear on the outer two rings: linear inside.
+  const TriangleMesh mesh = make_grid(12);
+  std::vector<Index> fixed;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.position(v).cwiseAbs().maxCoeff() > 0.7) fixed.push_back(v);
+  Values values(static_cast<Eigen::Index>(fixed.size()), 8);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    values.row(static_cast<Eigen::Index>(k)) = linear(mesh.position(fixed[k]), 8);
+  Executor executor;
+  const LsMeshResult result = ls_mesh({.positions = mesh.positions(),
+                                       .faces = mesh.faces(),
+                                       .fixed = fixed,
+                                       .fixed_values = &values},
+                                      {.tolerance = 1e-10}, executor);
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    EXPECT_LT((result.values.row(v) - linear(mesh.position(v), 8)).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(LsMesh, SameBitsOnAnyNumberOfThreads) {
+  const Cloud cloud = random_cloud(3000, 5);
+  const std::vector<Index> fixed = every(9, cloud.positions.size());
+  Values values(static_cast<Eigen::Index>(fixed.size()), 8);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    values.row(static_cast<Eigen::Index>(k)) =
+        linear(cloud.positions[static_cast<std::size_t>(fixed[k])], 8).array().cos();
+  const LsMeshInput input = {
+      .positions = cloud.positions, .tets = cloud.tets, .fixed = fixed, .fixed_values = &values};
+  Executor one(1), three(3);
+  const LsMeshResult a = ls_mesh(input, {.most_iterations = 20}, one);
+  const LsMeshResult b = ls_mesh(input, {.most_iterations = 20}, three);
+  EXPECT_TRUE(a.values == b.values);
+}
+
+}  // namespace
+}  // namespace mimicry::bake
