@@ -143,7 +143,7 @@ void add_geodesic(CLI::App& app, int& status) {
   command->add_option("--to", args->to,
                       "Where to: a path is written; without it all distances are");
   command->add_option("--radius", args->radius, "Look no farther, mesh units")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-12, 1e12));
   command->add_option("-o,--out", args->out, "path.json (with --to) or distances.csv")->required();
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces; they are not crossed");

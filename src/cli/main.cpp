@@ -33,6 +33,10 @@ int main(int argc, char** argv) {
   add_geodesic(app, status);
   try {
     app.parse(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      std::fprintf(stderr, "mimicry: standard output cannot be written to\n");
+      return kFileTrouble;
+    }
     return status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;

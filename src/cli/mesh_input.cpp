@@ -1,13 +1,17 @@
 #include "cli/mesh_input.h"
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/number.h>
 #include <mimicry/mesh/shapes.h>
+
+#include "cli/commands.h"
 
 namespace mimicry::cli {
 namespace {
@@ -33,6 +37,17 @@ NamedMesh load_shape(const std::string& spec) {
 }
 
 }  // namespace
+
+CLI::Validator number_between(double lowest, double highest) {
+  const std::string range = io::format_double(lowest) + " to " + io::format_double(highest);
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        const auto value = io::parse_double(text);
+        if (value && std::isfinite(*value) && *value >= lowest && *value <= highest) return "";
+        return "'" + text + "' is not a number from " + range;
+      },
+      range);
+}
 
 NamedMesh load_mesh(const std::string& spec) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -54,11 +55,16 @@ struct Row {
 };
 
 std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
-  std::vector<const TechniqueInfo*> chosen;
+  bool all = names.empty();
+  std::set<const TechniqueInfo*> named;
   for (const std::string& name : names)
-    if (name != "all") chosen.push_back(&technique::find_technique(name));
-  if (chosen.empty())
-    for (const TechniqueInfo& info : technique::techniques()) chosen.push_back(&info);
+    if (name == "all")
+      all = true;
+    else
+      named.insert(&technique::find_technique(name));
+  std::vector<const TechniqueInfo*> chosen;
+  for (const TechniqueInfo& info : technique::techniques())
+    if (all || named.contains(&info)) chosen.push_back(&info);
   return chosen;
 }
 
@@ -193,7 +199,7 @@ void print_rows(const std::vector<Row>& rows) {
          row.distances > 0 ? fixed(1e3 * row.distance_sum_m / double(row.distances), 1) : "-",
          row.frames > 0 ? fixed(1e6 * row.seconds / double(row.frames), 2) : "-"});
   print_table({"technique", "points", "missed", "length cm", "off the intended curve mm",
-               "microseconds a point"},
+               "microseconds a frame"},
               cells);
 }
 
@@ -208,7 +214,7 @@ void print_json(const std::vector<Row>& rows, const std::vector<std::string>& fi
     entry["mean_distance_to_intended_m"] =
         row.distances > 0 ? nlohmann::ordered_json(row.distance_sum_m / double(row.distances))
                           : nlohmann::ordered_json();
-    entry["seconds_per_point"] = row.frames > 0
+    entry["seconds_per_frame"] = row.frames > 0
                                      ? nlohmann::ordered_json(row.seconds / double(row.frames))
                                      : nlohmann::ordered_json();
     list.push_back(entry);
@@ -223,7 +229,12 @@ void run(const Arguments& args) {
   const std::string strokes_name = std::filesystem::path(args.strokes).filename().string();
   const std::vector<Stroke> strokes =
       io::read_strokes(files::read_file(args.strokes), strokes_name);
-  for (const Stroke& stroke : strokes) require_on_mesh(stroke, named);
+  for (const Stroke& stroke : strokes) {
+    require_on_mesh(stroke, named);
+    if (stroke.target != named.name)
+      std::fprintf(stderr, "mimicry: stroke '%s' was drawn on '%s'; it is projected on '%s'\n",
+                   stroke.id.c_str(), stroke.target.c_str(), named.name.c_str());
+  }
   const auto chosen = chosen_techniques(args.techniques);
   std::vector<OptionValue> given;
   for (const std::string& text : args.options) given.push_back(parse_option(text));
@@ -254,10 +265,14 @@ void run(const Arguments& args) {
   if (trouble)
     throw Error(ErrorKind::io, args.out + ": the folder cannot be made: " + trouble.message());
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
+  // All bytes are made before the first file is written.
+  std::vector<std::string> bytes;
+  for (const std::string& format : args.formats)
+    bytes.push_back(file_bytes(format, set, named.mesh, radius));
   std::vector<std::string> written;
-  for (const std::string& format : args.formats) {
-    written.push_back((folder / ("curves." + format)).string());
-    files::write_file_atomically(written.back(), file_bytes(format, set, named.mesh, radius));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    written.push_back((folder / ("curves." + args.formats[i])).string());
+    files::write_file_atomically(written.back(), bytes[i]);
   }
   if (args.json) return print_json(rows, written);
   print_rows(rows);
@@ -286,11 +301,11 @@ void add_project(CLI::App& app, int&) {
   command
       ->add_option("--minimum-motion-mm", args->minimum_motion_mm,
                    "Pass over frames whose pen moved less")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_between(0, 1e12));
   command
       ->add_option("--tube-radius", args->tube_radius,
                    "Of the tubes in the GLB file, mesh units (default 0.3 % of the diagonal)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-12, 1e12));
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces");
   command->add_flag("--json", args->json, "The table for programs");

@@ -14,6 +14,7 @@
 #include <mimicry/render/figure.h>
 #include <mimicry/render/palette.h>
 #include <mimicry/render/png.h>
+#include <mimicry/technique/technique.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -166,10 +167,15 @@ void run(const Arguments& args) {
   io::CurveSet set;
   if (!args.curves.empty())
     set = io::read_curves_json(files::read_file(args.curves), name_of(args.curves), named.mesh);
+  for (const std::string& name : args.techniques) (void)technique::find_technique(name);
   std::erase_if(set.curves, [&](const io::CurveRecord& record) {
     return (!args.stroke.empty() && record.stroke != args.stroke) ||
            (!args.techniques.empty() && !contains(args.techniques, record.technique));
   });
+
+  if (!args.stroke.empty() && set.curves.empty() && scene.tubes.empty())
+    throw Error(ErrorKind::invalid_input, "render: no stroke or curve has the id '" + args.stroke +
+                                              "'; give one of the file's");
 
   render::CameraOptions camera;
   camera.azimuth_deg = args.azimuth;
@@ -214,16 +220,22 @@ void add_render(CLI::App& app, int&) {
   command
       ->add_option("--iso-spacing", args->iso_spacing,
                    "Between these lines, mesh units (default 4 % of the diagonal)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-12, 1e12));
   command->add_option("-t,--techniques", args->techniques, "Only curves of these")->delimiter(',');
   command->add_option("--stroke", args->stroke, "Only the stroke of this id");
   command->add_flag("--intended", args->intended,
                     "Show the strokes' intended curves too, in white");
-  command->add_option("-o,--out", args->out, "The PNG file")->capture_default_str();
+  command->add_option("-o,--out", args->out, "The PNG file")
+      ->check(CLI::Validator(
+          [](std::string& name) -> std::string {
+            return name.ends_with(".png") ? "" : "'" + name + "' does not end in .png";
+          },
+          "FILE.png"))
+      ->capture_default_str();
   command->add_flag("--side-by-side", args->side_by_side,
                     "A panel for each technique, with captions");
   command->add_option("--columns", args->columns, "Panels in a row, 0: chosen")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 100));
   command->add_option(
       "--azimuth", args->azimuth,
       "Where the viewer stands, degrees; 0 is +z, 90 is +x (default: sees the curves)");
@@ -232,14 +244,15 @@ void add_render(CLI::App& app, int&) {
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
   command->add_option("--zoom", args->zoom, "2 shows the middle twice as large")
-      ->check(CLI::PositiveNumber)
+      ->check(number_between(0.01, 100))
       ->capture_default_str();
   command
       ->add_option("--tube-radius", args->tube_radius,
                    "Of curves, mesh units (default 0.4 % of the diagonal)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--width", args->width, "Pixels, of a panel where there are several");
-  command->add_option("--height", args->height, "Pixels");
+      ->check(number_between(1e-12, 1e12));
+  command->add_option("--width", args->width, "Pixels, of a panel where there are several")
+      ->check(CLI::Range(1, 16384));
+  command->add_option("--height", args->height, "Pixels")->check(CLI::Range(1, 16384));
   command->callback([args] { run(*args); });
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -32,6 +33,8 @@ struct Arguments {
   double rate_hz = 90.0;
   double distance_m = 0.048;
   double scale = 0.0;  // metres per mesh unit
+  std::string up = "y";
+  bool allow_nonmanifold = false;
 };
 
 struct Task {
@@ -58,6 +61,21 @@ Task published_curves(const Arguments& args, const NamedMesh& named) {
   return task;
 }
 
+// The curves are laid out in the shape's own coordinates: the mesh must be that shape, at any
+// resolution, not a scaled or moved one.
+void require_same_size(const NamedMesh& named, const spatial::Target& target,
+                       const std::string& shape) {
+  const Eigen::AlignedBox3d own = bounding_box(make_shape(shape));
+  const double off = std::max((own.min() - target.bounding_box().min()).cwiseAbs().maxCoeff(),
+                              (own.max() - target.bounding_box().max()).cwiseAbs().maxCoeff());
+  // A coarse mesh of a round shape, or a noisy one, differs by some per cent.
+  if (off > 0.1 * own.diagonal().norm())
+    throw Error(ErrorKind::invalid_input,
+                named.name + ": is not the built-in shape '" + shape +
+                    "' (its bounding box is another); simulate on shape:" + shape +
+                    ", or give --targets FILE with curves of this mesh");
+}
+
 Task task_of(const Arguments& args, const NamedMesh& named, const spatial::Target& target) {
   if (!args.targets.empty()) return published_curves(args, named);
   const std::string shape = args.shape.empty() ? named.name : args.shape;
@@ -67,14 +85,17 @@ Task task_of(const Arguments& args, const NamedMesh& named, const spatial::Targe
                 named.name +
                     ": there are no intended curves for it; give --targets FILE with target "
                     "curves, or --shape NAME if it is a built-in shape");
+  require_same_size(named, target, shape);
   return {study::intended_curves(shape, target), info->metres_per_unit};
 }
 
 // Upright, its middle 1.2 m above the floor.
-Similarity placement(const spatial::Target& target, double metres_per_unit) {
+Similarity placement(const spatial::Target& target, double metres_per_unit, bool z_up) {
   Similarity placed;
+  if (z_up) placed.rotation = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
   placed.scale = metres_per_unit;
-  placed.translation = Vec3(0.0, 1.2, 0.0) - metres_per_unit * target.bounding_box().center();
+  placed.translation =
+      Vec3(0.0, 1.2, 0.0) - metres_per_unit * (placed.rotation * target.bounding_box().center());
   return placed;
 }
 
@@ -101,17 +122,19 @@ bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) 
 
 void run(const Arguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, false);
+  const spatial::Target target = make_target(named, args.allow_nonmanifold);
   const Task task = task_of(args, named, target);
   const double scale = args.scale > 0.0 ? args.scale : task.metres_per_unit;
-  const Similarity placed = placement(target, scale);
+  const Similarity placed = placement(target, scale, args.up == "z");
   study::SimulationOptions options;
   options.rate_hz = args.rate_hz;
   options.mean_distance_m = args.distance_m;
 
   std::vector<stroke::Stroke> strokes;
   ProgressLine progress("drawing");
-  const auto total = task.curves.size() * static_cast<std::size_t>(args.count);
+  std::size_t total = 0;
+  for (const auto& curve : task.curves)
+    if (is_chosen(args.curves, curve.name)) total += static_cast<std::size_t>(args.count);
   for (std::size_t c = 0; c < task.curves.size(); ++c) {
     if (!is_chosen(args.curves, task.curves[c].name)) continue;
     for (int k = 0; k < args.count; ++k) {
@@ -151,13 +174,20 @@ void add_simulate(CLI::App& app, int&) {
       ->check(CLI::Range(1, 999))
       ->capture_default_str();
   command->add_option("--seed", args->seed, "Of all that is random")->capture_default_str();
-  command->add_option("--rate", args->rate_hz, "Frames a second")->capture_default_str();
+  command->add_option("--rate", args->rate_hz, "Frames a second")
+      ->check(number_between(20, 1000))
+      ->capture_default_str();
   command->add_option("--distance", args->distance_m, "Mean distance from hand to surface, metres")
       ->capture_default_str();
   command->add_option("--closed-loop", args->closed_loop,
                       "The person sees this technique's ink and corrects the visible error");
+  command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces");
   command->add_option("--scale", args->scale, "Metres per mesh unit (default: the shape's own)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-12, 1e12));
   command->callback([args] { run(*args); });
 }
 

@@ -32,7 +32,7 @@ void CurveBuilder::clear() {
 void CurveBuilder::reserve(std::size_t points) {
   curve_.points.reserve(points);
   curve_.pieces.reserve(points);
-  curve_.crossings.reserve(4 * points);
+  curve_.crossings.reserve(16 * points);
 }
 
 void CurveBuilder::append(const CurvePoint& point) {

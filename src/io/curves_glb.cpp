@@ -1,5 +1,6 @@
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include <mimicry/io/curves_glb.h>
 #include <mimicry/io/tube_mesh.h>
@@ -17,16 +18,21 @@ double linear(unsigned char srgb) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Tubes one after the other as a single mesh: a node is a curve, however many parts it has.
-void append(TubeMesh& all, const TubeMesh& part) {
-  const Index first = all.mesh.vertex_count();
-  std::vector<Vec3> positions(all.mesh.positions().begin(), all.mesh.positions().end());
-  std::vector<Face> faces(all.mesh.faces().begin(), all.mesh.faces().end());
-  positions.insert(positions.end(), part.mesh.positions().begin(), part.mesh.positions().end());
-  for (const Face& f : part.mesh.faces())
-    faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+// The parts of a curve as one mesh: a node is a curve, however many parts it has.
+TubeMesh tubes_of(const curve::ProjectedCurve& curve, const TriangleMesh& mesh, double radius) {
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  TubeMesh all;
+  for (const auto& part : curve::polylines(curve, mesh)) {
+    const TubeMesh tube = tube_mesh(part, {.radius = radius});
+    const auto first = static_cast<Index>(positions.size());
+    positions.insert(positions.end(), tube.mesh.positions().begin(), tube.mesh.positions().end());
+    all.normals.insert(all.normals.end(), tube.normals.begin(), tube.normals.end());
+    for (const Face& f : tube.mesh.faces())
+      faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  }
   all.mesh = TriangleMesh(std::move(positions), std::move(faces));
-  all.normals.insert(all.normals.end(), part.normals.begin(), part.normals.end());
+  return all;
 }
 
 }  // namespace
@@ -37,9 +43,7 @@ std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
   std::vector<GlbPart> parts = {{set.target, &mesh, {}, kTargetColor}};
   for (std::size_t i = 0; i < set.curves.size(); ++i) {
     const CurveRecord& record = set.curves[i];
-    TubeMesh& tube = tubes.emplace_back();
-    for (const auto& part : curve::polylines(record.curve, mesh))
-      append(tube, tube_mesh(part, {.radius = radius}));
+    const TubeMesh& tube = tubes.emplace_back(tubes_of(record.curve, mesh, radius));
     parts.push_back({record.stroke + " " + record.technique, &tube.mesh, tube.normals,
                      std::array{linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])}});
   }

@@ -82,10 +82,7 @@ Index bounded(const Json& value, Index count, const std::string& where) {
 CurvePoint read_point(const Json& value, const TriangleMesh& mesh, const std::string& where) {
   CurvePoint p;
   p.surface.face = bounded(member(value, "face", where), mesh.face_count(), where + ": face");
-  p.surface.bary = vector<3>(member(value, "bary", where), where + ": bary");
-  // Written coordinates sum to 1 up to rounding; what does not is another thing than a point.
-  if (!(std::abs(p.surface.bary.sum() - 1.0) <= 1e-6) || !(p.surface.bary.minCoeff() >= -1e-6))
-    json_fail(where, "'bary' is not three numbers >= 0 that sum to 1");
+  p.surface.bary = barycentrics(member(value, "bary", where), where);
   p.position = vector<3>(member(value, "position", where), where + ": position");
   p.normal = vector<3>(member(value, "normal", where), where + ": normal");
   p.frame = index(member(value, "frame", where), where + ": frame");

@@ -18,7 +18,9 @@ struct GlbPart {
   std::optional<std::array<double, 3>> color;  ///< linear, 0 to 1; without one no material
 };
 
-/// A binary glTF 2.0 file with a node for each part that has faces. Throws as `write_mesh` does.
+/// A binary glTF 2.0 file with a node for each part that has faces. Of objects far from their
+/// origin, where single precision would show, the nodes carry the offset. Throws as `write_mesh`
+/// does.
 std::string write_glb_scene(std::span<const GlbPart> parts);
 
 }  // namespace mimicry::io

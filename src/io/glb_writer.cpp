@@ -20,6 +20,7 @@ constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
 
 // Collects the binary chunk and the lists of the JSON chunk that point into it.
 struct Scene {
+  Vec3 origin = Vec3::Zero();  // of the numbers in the file; the nodes carry it
   std::string binary;
   Json views = Json::array();
   Json accessors = Json::array();
@@ -45,7 +46,7 @@ struct Scene {
     const std::size_t start = binary.size();
     Eigen::AlignedBox3f box;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const Eigen::Vector3f position = to_single(mesh, v, "GLB");
+      const Eigen::Vector3f position = to_single(mesh, v, "GLB", origin);
       box.extend(position);
       for (const float x : position) append_little_endian(binary, x);
     }
@@ -83,6 +84,7 @@ struct Scene {
     }
     Json mesh = {{"primitives", Json::array({primitive})}};
     Json node = {{"mesh", meshes.size()}};
+    if (origin != Vec3::Zero()) node["translation"] = {origin.x(), origin.y(), origin.z()};
     if (!part.name.empty()) mesh["name"] = node["name"] = part.name;
     meshes.push_back(mesh);
     nodes.push_back(node);
@@ -111,6 +113,11 @@ struct Scene {
 
 std::string write_glb_scene(std::span<const GlbPart> parts) {
   Scene scene;
+  Eigen::AlignedBox3d box;
+  for (const GlbPart& part : parts) box.extend(bounding_box(*part.mesh));
+  // Single precision keeps 1e-7 of the distance from the origin: up to here 1e-6 of the object.
+  if (!box.isEmpty() && box.center().norm() > 10.0 * box.diagonal().norm())
+    scene.origin = box.center();
   for (const GlbPart& part : parts)
     if (part.mesh->face_count() > 0) scene.add(part);
   if (scene.nodes.empty())

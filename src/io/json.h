@@ -64,6 +64,14 @@ Eigen::Matrix<double, N, 1> vector(const Json& value, const std::string& where) 
   return v;
 }
 
+/// Written coordinates sum to 1 up to rounding; what does not is another thing than a point.
+inline Vec3 barycentrics(const Json& value, const std::string& where) {
+  const Vec3 b = vector<3>(value, where);
+  if (std::abs(b.sum() - 1.0) > 1e-6 || b.minCoeff() < -1e-6)
+    json_fail(where, "'bary' is not three numbers >= 0 that sum to 1");
+  return b;
+}
+
 /// Quaternions are written x, y, z, w, as in glTF and WebXR.
 inline Quat quaternion(const Json& value, const std::string& where) {
   return Quat(vector<4>(value, where));

@@ -25,8 +25,9 @@ void append_triple(std::string& out, const Face& face, Index first_number) {
   out += std::to_string(face[2] + first_number);
 }
 
-Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format) {
-  const Eigen::Vector3f position = mesh.position(vertex).cast<float>();
+Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format,
+                          const Vec3& origin) {
+  const Eigen::Vector3f position = (mesh.position(vertex) - origin).cast<float>();
   for (const float x : position)
     if (!std::isfinite(x))
       throw Error(ErrorKind::invalid_input, std::string("mesh: vertex ") + std::to_string(vertex) +

@@ -18,6 +18,7 @@ void append_triple(std::string& out, const Vec3& x);
 void append_triple(std::string& out, const Face& face, Index first_number = 0);
 
 /// In single precision; throws Error(invalid_input) where that is not finite.
-Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format);
+Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format,
+                          const Vec3& origin = Vec3::Zero());
 
 }  // namespace mimicry::io

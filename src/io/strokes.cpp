@@ -48,7 +48,7 @@ Intention read_intention(const Json& value, const std::string& where) {
     json_fail(where, "'face' and 'bary' are not arrays of the same length");
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const std::string point = where + ": point " + std::to_string(i);
-    intention.points.push_back({index(faces[i], point), vector<3>(bary[i], point)});
+    intention.points.push_back({index(faces[i], point), barycentrics(bary[i], point)});
   }
   return intention;
 }
@@ -145,6 +145,7 @@ void read_strokes(std::string_view bytes, std::string_view name,
   header.name = name;
   std::string key;
   std::size_t count = 0;
+  std::size_t frames = 0;  // of the stroke that is being read
   bool has_strokes = false;
   const auto event = [&](int depth, Json::parse_event_t kind, Json& value) {
     using Event = Json::parse_event_t;
@@ -154,6 +155,10 @@ void read_strokes(std::string_view bytes, std::string_view name,
       header.require_complete();
       has_strokes = true;
     }
+    if (key == "strokes" && depth == 2 && kind == Event::object_start) frames = 0;
+    if (key == "strokes" && depth == 4 && kind == Event::object_end) ++frames;
+    if (key == "strokes" && depth == 2 && (kind == Event::value || kind == Event::array_start))
+      json_fail(header.name + ": stroke " + std::to_string(count), "is not an object");
     if (depth == 2 && kind == Event::object_end && key == "strokes") {
       visit(read_stroke(value, *header.convention,
                         header.name + ": stroke " + std::to_string(count++)));
@@ -164,10 +169,10 @@ void read_strokes(std::string_view bytes, std::string_view name,
   try {
     const Json rest = parse_json(bytes, event);
   } catch (const Json::parse_error& error) {
-    throw Error(ErrorKind::invalid_input, header.name + ": stroke " + std::to_string(count) +
-                                              ": the text ends early or is not JSON at byte " +
-                                              std::to_string(error.byte) +
-                                              "; export the strokes again");
+    throw Error(ErrorKind::invalid_input,
+                header.name + ": stroke " + std::to_string(count) + ": frame " +
+                    std::to_string(frames) + ": the text ends early or is not JSON at byte " +
+                    std::to_string(error.byte) + "; export the strokes again");
   } catch (const Json::exception& error) {
     throw Error(ErrorKind::invalid_input,
                 header.name + ": stroke " + std::to_string(count) + ": " + error.what());

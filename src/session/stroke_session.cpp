@@ -32,7 +32,7 @@ FrameStatus StrokeSession::add(const stroke::Frame& frame) {
 }
 
 FrameStatus StrokeSession::judge(const stroke::Frame& frame) {
-  if (stroke::frame_problem(frame, last_time_s_)) return FrameStatus::rejected;
+  if (!stroke::is_usable(frame, last_time_s_)) return FrameStatus::rejected;
   last_time_s_ = frame.time_s;
   const bool first = builder_.curve().points.empty();
   const Vec3& pen = frame.controller.position;

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include <mimicry/base/finite.h>
-
 #include <mimicry/stroke/frame.h>
 
 namespace mimicry::stroke {
@@ -12,14 +11,21 @@ Pose to_model(const Pose& world, const Similarity& model_to_world) {
           model_to_world.rotation.conjugate() * world.orientation.normalized()};
 }
 
+bool is_place(const Vec3& x) {
+  return is_finite(x) && x.cwiseAbs().maxCoeff() <= kFarthest_m;
+}
+
+bool is_rotation(const Quat& q) {
+  return is_finite(q) && std::abs(q.coeffs().stableNorm() - 1.0) <= kUnitTolerance;
+}
+
 std::optional<std::string> pose_problem(const Pose& pose, const char* device) {
-  if (!is_finite(pose.position)) return std::string(device) + " position is not finite";
-  if (!is_finite(pose.orientation))
-    return std::string(device) + " orientation is not finite";
-  const double length = pose.orientation.coeffs().stableNorm();
-  if (!(std::abs(length - 1.0) <= kUnitTolerance))
+  if (!is_place(pose.position))
+    return std::string(device) + " position is not finite or beyond 1e9 m";
+  if (!is_finite(pose.orientation)) return std::string(device) + " orientation is not finite";
+  if (!is_rotation(pose.orientation))
     return std::string(device) + " orientation is a quaternion of length " +
-           std::to_string(length) + ", not 1";
+           std::to_string(pose.orientation.coeffs().stableNorm()) + ", not 1";
   return std::nullopt;
 }
 
@@ -46,6 +52,13 @@ std::optional<std::string> frame_problem(const Frame& frame, double previous_tim
   if (!is_fraction(frame.trigger)) return "trigger is not between 0 and 1";
   if (frame.pressure && !is_fraction(*frame.pressure)) return "pressure is not between 0 and 1";
   return std::nullopt;
+}
+
+bool is_usable(const Frame& frame, double previous_time_s) {
+  return std::isfinite(frame.time_s) && frame.time_s >= previous_time_s &&
+         is_place(frame.head.position) && is_rotation(frame.head.orientation) &&
+         is_place(frame.controller.position) && is_rotation(frame.controller.orientation) &&
+         is_fraction(frame.trigger) && (!frame.pressure || is_fraction(*frame.pressure));
 }
 
 }  // namespace mimicry::stroke

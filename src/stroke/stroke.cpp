@@ -9,7 +9,8 @@ namespace mimicry::stroke {
 void require_usable(const Stroke& stroke) {
   const std::string name = "stroke '" + stroke.id + "'";
   const Similarity& placed = stroke.model_to_world;
-  if (!is_finite(placed.translation) || !is_finite(placed.rotation) || !std::isfinite(placed.scale) ||
+  if (!is_finite(placed.translation) || !is_finite(placed.rotation) ||
+      !std::isfinite(placed.scale) ||
       !(std::abs(placed.rotation.coeffs().stableNorm() - 1.0) <= kUnitTolerance) ||
       !(placed.scale > 0.0))
     throw Error(ErrorKind::invalid_input,

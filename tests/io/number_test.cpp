@@ -29,7 +29,8 @@ TEST(Number, EveryFiniteDoubleReadsBackTheSameBits) {
   std::mt19937_64 random(7);
   for (int n = 0; n < 200'000; ++n) {
     const std::uint64_t bits = random();
-    if ((bits >> 52 & 0x7ff) == 0x7ff) continue;  // a signalling NaN would trap when it is looked at
+    if ((bits >> 52 & 0x7ff) == 0x7ff)
+      continue;  // a signalling NaN would trap when it is looked at
     const double value = from_bits(bits);
     const auto back = parse_double(format_double(value));
     ASSERT_TRUE(back) << format_double(value);

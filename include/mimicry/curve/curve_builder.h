@@ -17,7 +17,7 @@ class CurveBuilder {
 
   /// Forgets the curve and keeps its memory.
   void clear();
-  /// Room for this many points, and for four crossings a point: up to there `append` does not
+  /// Room for this many points, and for 16 crossings a point: up to there `append` does not
   /// allocate.
   void reserve(std::size_t points);
 

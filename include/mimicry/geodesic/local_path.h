@@ -37,8 +37,8 @@ struct LocalPath {
 /// edges is straightened around its vertices (Xin and Wang 2007; the moves are those of Sharp and
 /// Crane 2020 on the faces crossed).
 /// Boundary and non-manifold edges are not crossed, and a vertex where several fans touch is not
-/// passed from one fan into another. Holds scratch of #V; calls after the first few do not
-/// allocate. Refers to mesh and half_edges, which must outlive it.
+/// passed from one fan into another. Holds scratch of #V, and of #F once a search has given up;
+/// other calls do not allocate. Refers to mesh and half_edges, which must outlive it.
 class LocalPathFinder {
  public:
   LocalPathFinder(const TriangleMesh& mesh, const HalfEdges& half_edges);

@@ -14,7 +14,7 @@
 
 namespace mimicry::io {
 
-/// The version of `mimicry-curves` that is written; older ones are read (docs/formats.md).
+/// The version of `mimicry-curves` that is written and read (docs/formats.md).
 inline constexpr int kCurvesVersion = 1;
 
 /// A curve and where it came from.

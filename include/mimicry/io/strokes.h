@@ -10,7 +10,7 @@
 
 namespace mimicry::io {
 
-/// The version of `mimicry-strokes` that is written; older ones are read (docs/formats.md).
+/// The version of `mimicry-strokes` that is written and read (docs/formats.md).
 inline constexpr int kStrokesVersion = 1;
 
 /// Reads a `mimicry-strokes` file and hands over its strokes one by one, converted to the internal

@@ -22,7 +22,7 @@ struct SessionOptions {
   MissPolicy misses = MissPolicy::connect;
   /// A frame whose pen is nearer than this to the last inked frame's is passed over. World metres.
   double minimum_motion_m = 0.0;
-  /// Points that the curve has room for from the start; up to there a frame allocates nothing.
+  /// Points that the curve has room for from the start.
   std::size_t expected_frames = 8192;
 };
 
@@ -30,7 +30,7 @@ enum class FrameStatus : std::uint8_t {
   inked,     ///< a point was added to the curve
   missed,    ///< the point is undefined; of an anchored technique that waits for its first hit too
   still,     ///< passed over: less motion than the minimum
-  rejected,  ///< not usable (`stroke::frame_problem`), passed over
+  rejected,  ///< not usable (`stroke::is_usable`), passed over
 };
 
 /// How many frames of a stroke had each status.
@@ -50,8 +50,9 @@ class StrokeSession {
 
   /// Starts a stroke; the last one's curve is forgotten.
   void begin(const Similarity& model_to_world);
-  /// frame: world. Never throws, never allocates within `expected_frames`. A frame after `end` and
-  /// before the next `begin` is rejected.
+  /// frame: world. Never throws. Within `expected_frames` nothing is allocated, but where the curve
+  /// jumps across the object or crosses more than 16 edges a frame. A frame after `end` and before
+  /// the next `begin` is rejected.
   FrameStatus add(const stroke::Frame& frame);
   /// Ends the stroke; the curve stays readable until the next `begin`.
   void end() { drawing_ = false; }

@@ -36,9 +36,14 @@ Frame to_model(const Frame& world, const Similarity& model_to_world);
 /// Single-precision devices stay below 1e-6.
 inline constexpr double kUnitTolerance = 1e-3;
 
-/// Why a frame cannot be used, empty where it can: a number that is not finite, a quaternion whose
-/// length is not 1 within kUnitTolerance, trigger or pressure outside 0..1, or a time before
-/// `previous_time_s`.
+/// No device is farther from its origin, metres: what is lies in a broken recording.
+inline constexpr double kFarthest_m = 1e9;
+
+/// Why a frame cannot be used, empty where it can: a number that is not finite, a position beyond
+/// kFarthest_m, a quaternion whose length is not 1 within kUnitTolerance, trigger or pressure
+/// outside 0..1, or a time before `previous_time_s`.
 std::optional<std::string> frame_problem(const Frame& frame, double previous_time_s = -kInfinity);
+/// `frame_problem` is empty; allocates nothing.
+bool is_usable(const Frame& frame, double previous_time_s = -kInfinity);
 
 }  // namespace mimicry::stroke

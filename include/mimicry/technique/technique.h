@@ -59,7 +59,7 @@ struct Step {
   Memory memory;
 };
 
-/// frame: model space, usable (`stroke::frame_problem` is empty). Pure: no clock, no globals, no
+/// frame: model space, usable (`stroke::is_usable`). Pure: no clock, no globals, no
 /// allocation.
 using StepFunction = Step (*)(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 
