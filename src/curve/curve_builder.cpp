@@ -26,6 +26,7 @@ void CurveBuilder::clear() {
   curve_.points.clear();
   curve_.pieces.clear();
   curve_.crossings.clear();
+  curve_.closed = false;
   broken_ = false;
 }
 

@@ -67,6 +67,7 @@ OrderedJson curve_json(const CurveRecord& record, const TriangleMesh& mesh) {
             {"translation", array_of(record.model_to_world.translation)},
             {"scale", record.model_to_world.scale}}},
           {"length", curve::length(record.curve)},
+          {"closed", record.curve.closed},
           {"points", points},
           {"pieces", pieces}};
 }
@@ -128,6 +129,9 @@ CurveRecord read_record(const Json& value, const TriangleMesh& mesh, const std::
   record.model_to_world = {quaternion(member(placed, "rotation", where), where + ": rotation"),
                            vector<3>(member(placed, "translation", where), where + ": translation"),
                            number(member(placed, "scale", where), where + ": scale")};
+  const Json& closed = member(value, "closed", where);
+  if (!closed.is_boolean()) json_fail(where, "'closed' is not true or false");
+  record.curve.closed = closed.get<bool>();
   const Json& points = member(value, "points", where);
   const Json& pieces = member(value, "pieces", where);
   if (!points.is_array() || !pieces.is_array() ||
@@ -139,6 +143,12 @@ CurveRecord read_record(const Json& value, const TriangleMesh& mesh, const std::
   for (std::size_t i = 0; i < pieces.size(); ++i)
     record.curve.pieces.push_back(read_piece(pieces[i], mesh, record.curve.crossings,
                                              where + ": piece " + std::to_string(i)));
+  if (record.curve.closed && !points.empty()) {
+    const SurfacePoint& first = record.curve.points.front().surface;
+    const SurfacePoint& last = record.curve.points.back().surface;
+    if (first.face != last.face || first.bary != last.bary)
+      json_fail(where, "is closed and does not end in its first point");
+  }
   return record;
 }
 

@@ -41,12 +41,14 @@ struct Sample {
         builder.append(
             {p, mesh.position(p), interpolated_normal(mesh, normals, p), k, k / 90.0, 0.05});
       }
+      if (step == 11) builder.append(curve::CurvePoint(builder.curve().points.front()));
       CurveRecord record;
       record.stroke = "s" + std::to_string(step);
       record.technique = "snap";
       record.options["nozzle"] = {0, 0, -1};
       record.model_to_world.scale = 0.4;
       record.curve = builder.curve();
+      record.curve.closed = step == 11;
       set.curves.push_back(record);
     }
   }
@@ -111,6 +113,8 @@ TEST(Curves, JsonReadsBackToTheSameBits) {
   EXPECT_EQ(read.curves[1].options, sample.set.curves[1].options);
   const auto& a = read.curves[1].curve;
   const auto& b = sample.set.curves[1].curve;
+  EXPECT_FALSE(read.curves[0].curve.closed);
+  EXPECT_TRUE(a.closed);
   ASSERT_EQ(a.crossings.size(), b.crossings.size());
   for (std::size_t i = 0; i < a.crossings.size(); ++i)
     EXPECT_EQ(a.crossings[i].t, b.crossings[i].t);
@@ -142,6 +146,10 @@ TEST(Curves, ForeignMeshAndBrokenFilesAreRefusedByName) {
               HasSubstr("'bary'"));
   EXPECT_THAT(error_of(replaced("\"kind\":\"shortest\"", "\"kind\":\"line\""), sample.mesh),
               HasSubstr("'line'"));
+  EXPECT_THAT(error_of(replaced("\"closed\":false", "\"closed\":0"), sample.mesh),
+              HasSubstr("'closed'"));
+  EXPECT_THAT(error_of(replaced("\"closed\":false", "\"closed\":true"), sample.mesh),
+              HasSubstr("does not end in its first point"));
   for (std::size_t n = 0; n + 3 < bytes.size(); n += 97)
     ASSERT_THAT(error_of(bytes.substr(0, n), sample.mesh), HasSubstr("c.json")) << n;
 }

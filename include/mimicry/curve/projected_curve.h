@@ -42,6 +42,7 @@ struct ProjectedCurve {
   std::vector<CurvePoint> points;
   std::vector<Piece> pieces;        ///< one fewer than points (none for no point)
   std::vector<Crossing> crossings;  ///< of all pieces, in order
+  bool closed = false;              ///< it ends in its first point
 
   std::span<const Crossing> piece_crossings(std::size_t piece) const {
     return std::span(crossings).subspan(pieces[piece].first_crossing, pieces[piece].crossing_count);
