@@ -1,3 +1,4 @@
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -5,6 +6,25 @@
 #include <mimicry/geodesic/site.h>
 
 namespace mimicry::geodesic {
+namespace {
+
+int corner_of(const TriangleMesh& mesh, Index face, Index vertex) {
+  for (int k = 0; k < 3; ++k)
+    if (mesh.face(face)[static_cast<std::size_t>(k)] == vertex) return k;
+  return -1;
+}
+
+bool holds(const TriangleMesh& mesh, Index face, const SurfacePoint& p) {
+  if (face == p.face) return true;
+  const Site site = site_of(mesh, p);
+  if (site.kind == Site::Kind::face) return false;
+  if (site.kind == Site::Kind::vertex) return corner_of(mesh, face, site.index) >= 0;
+  const Face& own = mesh.face(p.face);
+  const auto k = static_cast<std::size_t>(HalfEdges::corner(site.index));
+  return corner_of(mesh, face, own[k]) >= 0 && corner_of(mesh, face, own[(k + 1) % 3]) >= 0;
+}
+
+}  // namespace
 
 Site site_of(const TriangleMesh& mesh, const SurfacePoint& p) {
   for (int k = 0; k < 3; ++k)
@@ -38,6 +58,40 @@ void check_surface_point(const TriangleMesh& mesh, const SurfacePoint& p, std::s
 SurfacePoint normalised(const SurfacePoint& p) {
   const Vec3 bary = p.bary.cwiseMax(0.0);
   return {p.face, bary / bary.sum()};
+}
+
+Index shared_face(const TriangleMesh& mesh, const HalfEdges& half_edges, const SurfacePoint& a,
+                  const SurfacePoint& b) {
+  if (holds(mesh, a.face, b)) return a.face;
+  if (holds(mesh, b.face, a)) return b.face;
+  const Site site = site_of(mesh, a);
+  if (site.kind == Site::Kind::edge) {
+    const Index twin = half_edges.twin(site.index);
+    if (twin >= 0 && holds(mesh, HalfEdges::face(twin), b)) return HalfEdges::face(twin);
+  }
+  if (site.kind != Site::Kind::vertex) return kNone;
+  const Index first = 3 * a.face + corner_of(mesh, a.face, site.index);
+  Index h = first;
+  do {
+    if (holds(mesh, HalfEdges::face(h), b)) return HalfEdges::face(h);
+    h = half_edges.ccw(h);
+  } while (h >= 0 && h != first);
+  if (h >= 0) return kNone;
+  for (h = half_edges.cw(first); h >= 0; h = half_edges.cw(h))
+    if (holds(mesh, HalfEdges::face(h), b)) return HalfEdges::face(h);
+  return kNone;
+}
+
+SurfacePoint in_face(const TriangleMesh& mesh, const SurfacePoint& p, Index face) {
+  if (p.face == face) return p;
+  assert(holds(mesh, face, p));
+  SurfacePoint q{face, Vec3::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    const int corner = corner_of(mesh, face, mesh.face(p.face)[static_cast<std::size_t>(k)]);
+    if (corner >= 0) q.bary[corner] = p.bary[k];
+  }
+  q.bary /= q.bary.sum();
+  return q;
 }
 
 SurfacePoint vertex_point(const HalfEdges& half_edges, Index vertex) {

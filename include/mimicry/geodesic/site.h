@@ -29,6 +29,15 @@ void check_surface_point(const TriangleMesh& mesh, const SurfacePoint& p, std::s
 /// The same point with barycentrics >= 0 that sum to 1.
 SurfacePoint normalised(const SurfacePoint& p);
 
+/// A face that holds both points, seen from a, which lies in its face, at an edge also in the face
+/// behind it and at a vertex in all around it; kNone where there is none. Of several a's own, then
+/// b's own, then the first counter-clockwise. O(faces around a).
+Index shared_face(const TriangleMesh& mesh, const HalfEdges& half_edges, const SurfacePoint& a,
+                  const SurfacePoint& b);
+
+/// The same point named in another face that holds it (`shared_face`).
+SurfacePoint in_face(const TriangleMesh& mesh, const SurfacePoint& p, Index face);
+
 /// The surface point at a vertex, in one of its faces; face kNone for an isolated vertex.
 SurfacePoint vertex_point(const HalfEdges& half_edges, Index vertex);
 
