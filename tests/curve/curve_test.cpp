@@ -3,23 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/curve/curve_builder.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
+
+#include "curve/support.h"
 
 namespace mimicry::curve {
 namespace {
 
-struct Drawn {
-  TriangleMesh mesh;
-  HalfEdges edges{mesh};
-  std::vector<Vec3> normals = angle_weighted_normals(mesh);
-
-  CurvePoint point(const SurfacePoint& p, Index frame = 0) const {
-    return {p, mesh.position(p), interpolated_normal(mesh, normals, p), frame, 0.0, 0.0};
-  }
-};
-
-const Vec3 kMiddle = Vec3::Constant(1.0 / 3.0);
+using test::Drawn;
+using test::kMiddle;
 
 TEST(Curve, EveryPieceRunsFromPointToPointAcrossNeighbouringFaces) {
   const Drawn sphere{make_sphere(8)};
