@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/geodesic/local_path.h>
+#include <mimicry/mesh/half_edges.h>
+
+namespace mimicry::curve {
+
+struct Closing {
+  bool closed = false;                                            ///< the curve is closed now
+  geodesic::PathLabel label = geodesic::PathLabel::disconnected;  ///< of the joining piece
+};
+
+/// Closes a curve: joins its last point to its first by the shortest path on the surface. The first
+/// point is appended, with frame and time of the last; where the last is the same point already,
+/// only `closed` is set. Leaves a curve unchanged that is closed, has fewer than two points, or
+/// whose ends the surface does not join (label `disconnected`). O(#V) and the path.
+Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& half_edges);
+
+struct SmoothOptions {
+  double strength = 0.5;  ///< 0 to 1: how far a point moves; 0 changes nothing
+  int iterations = 1;     ///< >= 0
+};
+
+/// The curve with its points evened out, on the surface. In each iteration all points move at once,
+/// along the geodesic toward the point that divides the geodesic between their neighbours as the
+/// lengths of their two pieces; strength 1 goes half the way, which takes out a zigzag at once
+/// (farther would mirror it), 0 none. A curve that is a geodesic stays. Ends of the curve and at
+/// gaps and chords stay; a closed curve has none. Points keep frame, time and pen distance;
+/// vertex_normals (#V by 3, unit) give their new normals. Throws Error(invalid_input) for options
+/// out of range. Three paths a point and iteration.
+ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
+                      const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
+                      const SmoothOptions& options);
+
+/// The curve with fewer points (Douglas and Peucker 1973, on geodesics): a point goes where it, and
+/// all others that go with it, lie within `tolerance` (model units, in space) of the geodesic that
+/// takes their place. Ends of the curve and at gaps and chords stay. Throws Error(invalid_input)
+/// for a tolerance below 0 or not finite. O(points log points) paths as a rule.
+ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
+                        const HalfEdges& half_edges, double tolerance);
+
+}  // namespace mimicry::curve
