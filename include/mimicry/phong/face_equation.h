@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <mimicry/phong/tangent_bases.h>
+
+namespace mimicry::phong {
+
+using Mat2 = Eigen::Matrix2d;
+
+/// What one triangle's share of the tangent field needs. Edge e runs from corner e to corner
+/// (e + 1) % 3.
+struct FaceFrames {
+  /// E_ij R_ij and E_ij of each edge: the tangent plane of the whole triangle is
+  /// T(b) = sum over edges (b_i b_j / S) [(b_i + b_k / 2) from[e] T_i + (b_j + b_k / 2) to[e] T_j].
+  std::array<Mat2, 3> from, to;
+  /// offset[i][l] = T_i (x_l - x_0); l = 0 is zero and left out.
+  std::array<std::array<Vec2, 2>, 3> offset;
+};
+
+/// The orthogonal matrix closest to m, reflections allowed: its polar factor. The identity for 0.
+Mat2 nearest_orthogonal(const Mat2& m);
+
+/// From the positions and tangent planes of the corners: R_ij by polar factors, the three E_ij by
+/// alternating Procrustes.
+FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basis*, 3>& t);
+
+/// The equation of a query y on one triangle: f(b) = T(b) (y - x(b)) = 0, with the analytic
+/// Jacobian. S f is a quartic in b: its Bernstein coefficients tell, for most triangles without
+/// evaluating anything, that there is no solution inside.
+class FaceEquation {
+ public:
+  /// w[i] = T_i (y - x_0).
+  FaceEquation(const FaceFrames& frames, const std::array<Vec2, 3>& w);
+
+  /// By (b1, b2), with b0 = 1 - b1 - b2; not at a corner.
+  struct Value {
+    Vec2 f;
+    Mat2 jacobian;
+  };
+  Value evaluate(const Vec3& b) const;
+
+  /// Solutions in the triangle; those a hair outside are drawn in. More than one come up where T(b)
+  /// nearly stands on the triangle, or y lies beyond the centre of curvature.
+  struct Solutions {
+    static constexpr std::size_t kMost = 6;
+    std::array<Vec3, kMost> b;
+    std::size_t count = 0;
+  };
+  /// size: of the whole model in the embedding, which residuals are measured against. Newton's
+  /// method from the centroid serves where the Jacobian hardly changes over the triangle;
+  /// elsewhere the triangle is cut until the coefficients exclude a solution or that holds.
+  Solutions solve(double size) const;
+
+ private:
+  struct Piece;
+  std::optional<Vec3> newton(Vec3 b, double size) const;
+  bool is_nearly_linear(const std::array<Vec3, 3>& corners) const;
+  void search_pieces(double size, Solutions& solutions) const;
+
+  std::array<Vec2, 3> at_corner_;  // T_i (y - x_i)
+  // Monomials of S f: b_i^3 b_{i+1}, b_i^3 b_{i+2}, b_i^2 b_{i+1}^2, b_i^2 b_{i+1} b_{i+2}.
+  std::array<Vec2, 3> next_, previous_, square_, mixed_;
+};
+
+}  // namespace mimicry::phong

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <mimicry/base/error.h>
+#include <mimicry/phong/phong_surface.h>
+
+namespace mimicry::phong {
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+constexpr int kSteps = 6;
+
+// Squared distance of (s, t) from the triangle (0, 0), (along, 0), (across, height).
+double triangle_distance2(double s, double t, double along, double across, double height) {
+  const auto side = [](double px, double py, double dx, double dy) {
+    // p relative to the side's start.
+    const double length2 = dx * dx + dy * dy;
+    const double h = length2 > 0.0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0.0;
+    const double x = px - h * dx, y = py - h * dy;
+    return x * x + y * y;
+  };
+  const double right_dx = across - along;
+  const double below = t, right = right_dx * t - height * (s - along),
+               left = height * s - across * t;
+  if (below >= 0.0 && right >= 0.0 && left >= 0.0 && height > 0.0) return 0.0;
+  double best = kInfinity;
+  const bool is_line = !(height > 0.0);
+  if (below < 0.0 || is_line) best = std::min(best, side(s, t, along, 0.0));
+  if (right < 0.0 || is_line) best = std::min(best, side(s - along, t, right_dx, height));
+  if (left < 0.0 || is_line) best = std::min(best, side(s, t, across, height));
+  return best < kInfinity ? best : 0.0;
+}
+
+}  // namespace
+
+Eigen::AlignedBox<double, kDimension> PhongSurface::Flat::box() const {
+  const Vec8 x1 = x0 + along * axis0, x2 = x0 + across * axis0 + height * axis1;
+  // The corners have been rounded on their way through the plane.
+  const Vec8 pad = Vec8::Constant(
+      1e-14 * (x0.cwiseAbs().maxCoeff() + std::abs(along) + std::abs(across) + std::abs(height)));
+  return {x0.cwiseMin(x1).cwiseMin(x2) - pad, x0.cwiseMax(x1).cwiseMax(x2) + pad};
+}
+
+double PhongSurface::Flat::distance2_below(const Vec8& y) const {
+  const Vec8 v = y - x0;
+  const double s = axis0.dot(v), t = axis1.dot(v), v2 = v.squaredNorm();
+  const double above2 = v2 - s * s - t * t;
+  const double distance2 = std::max(above2, 0.0) + triangle_distance2(s, t, along, across, height);
+  return distance2 - 1e-13 * v2;  // more than all rounding
+}
+
+PhongSurface::PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges,
+                           std::span<const double> values, int dimension) {
+  if (dimension < 1 || dimension > kDimension)
+    throw Error(ErrorKind::unsupported, "embedding: dimension " + std::to_string(dimension) +
+                                            " is not between 1 and 8; bake with 8 or fewer");
+  const auto columns = static_cast<std::size_t>(dimension);
+  values_.assign(at(mesh.vertex_count()), Vec8::Zero());
+  Eigen::AlignedBox<double, kDimension> box;
+  for (std::size_t v = 0; v < values_.size(); ++v) {
+    for (std::size_t k = 0; k < columns; ++k)
+      values_[v][static_cast<Eigen::Index>(k)] = values[v * columns + k];
+    box.extend(values_[v]);
+  }
+  size_ = values_.empty() ? 0.0 : box.diagonal().norm();
+  tangents_ = tangent_bases(half_edges, mesh.faces(), values_);
+
+  faces_.reserve(at(mesh.face_count()));
+  for (const Face& f : mesh.faces())
+    faces_.push_back(
+        {f, make_frames({value(f[0]), value(f[1]), value(f[2])},
+                        {&tangents_[at(f[0])], &tangents_[at(f[1])], &tangents_[at(f[2])]})});
+  bvh_ = {mesh.face_count(), [&](Index f) { return flat(f); }};
+}
+
+PhongSurface::Flat PhongSurface::flat(Index face) const {
+  const Face& f = faces_[at(face)].corners;
+  Flat result;
+  result.x0 = value(f[0]);
+  const Vec8 a = value(f[1]) - result.x0, b = value(f[2]) - result.x0;
+  result.along = a.norm();
+  result.axis0 = result.along > 0.0 ? Vec8(a / result.along) : Vec8(Vec8::Unit(0));
+  result.across = result.axis0.dot(b);
+  const Vec8 up = b - result.across * result.axis0;
+  result.height = up.norm();
+  result.axis1 = result.height > 0.0 ? Vec8(up / result.height) : Vec8(Vec8::Zero());
+  // A thin triangle's second axis leans on the first by rounding: taken off again.
+  result.axis1 -= result.axis0.dot(result.axis1) * result.axis0;
+  return result;
+}
+
+Vec8 PhongSurface::position(const SurfacePoint& p) const {
+  const Face& f = faces_[at(p.face)].corners;
+  return p.bary[0] * value(f[0]) + p.bary[1] * value(f[1]) + p.bary[2] * value(f[2]);
+}
+
+Basis PhongSurface::tangent_plane(const SurfacePoint& p) const {
+  const Record& face = faces_[at(p.face)];
+  const Vec3& b = p.bary;
+  const double s = b[0] * b[1] + b[1] * b[2] + b[2] * b[0];
+  Basis result = Basis::Zero();
+  for (std::size_t e = 0; e < 3; ++e) {
+    const std::size_t j = (e + 1) % 3, k = (e + 2) % 3;
+    const double bi = b[static_cast<int>(e)], bj = b[static_cast<int>(j)],
+                 bk = b[static_cast<int>(k)];
+    const double weight = s > 1e-14 ? bi * bj / s : (bi > 0.5 ? 1.0 : 0.0);
+    result += weight * ((bi + 0.5 * bk) * face.frames.from[e] * tangents_[at(face.corners[e])] +
+                        (bj + 0.5 * bk) * face.frames.to[e] * tangents_[at(face.corners[j])]);
+  }
+  return result;
+}
+
+FaceEquation PhongSurface::equation(Index face, const Vec8& y) const {
+  const Record& record = faces_[at(face)];
+  const Vec8 v = y - value(record.corners[0]);
+  return {record.frames,
+          {tangents_[at(record.corners[0])] * v, tangents_[at(record.corners[1])] * v,
+           tangents_[at(record.corners[2])] * v}};
+}
+
+void PhongSurface::consider(Index face, const Vec8& y, SurfacePoint& best,
+                            double& distance2) const {
+  const FaceEquation::Solutions solutions = equation(face, y).solve(size_);
+  for (std::size_t i = 0; i < solutions.count; ++i) {
+    const SurfacePoint p = {face, solutions.b[i]};
+    const double d2 = (y - position(p)).squaredNorm();
+    if (d2 < distance2 || (d2 == distance2 && (best.face == kNone || face < best.face))) {
+      best = p;
+      distance2 = d2;
+    }
+  }
+}
+
+std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const {
+  SurfacePoint best;
+  double distance2 = kInfinity;
+  // All solutions within the bound, which shrinks to the nearest.
+  const auto search = [&](double within2) {
+    bvh_.nearest(y, within2, [&](Index face, const Flat& candidate, double bound2) {
+      if (face == best.face || candidate.distance2_below(y) > bound2) return bound2;
+      consider(face, y, best, distance2);
+      return std::min(bound2, distance2);
+    });
+  };
+  double nearest2 = kInfinity, side = 0.0;
+  if (hint >= 0 && hint < face_count()) {
+    consider(hint, y, best, distance2);
+    if (best.face == kNone) {
+      const Flat start = flat(hint);
+      nearest2 = start.distance2_below(y);
+      side = start.along;
+    }
+  }
+  if (best.face == kNone) {
+    // The face nearest to y need not have a solution, and until one is known nothing bounds the
+    // search: it goes out by steps.
+    bvh_.nearest(y, nearest2, [&](Index, const Flat& candidate, double bound2) {
+      const double d2 = candidate.distance2_below(y);
+      if (d2 < nearest2) {
+        nearest2 = d2;
+        side = candidate.along;
+      }
+      return std::min(bound2, std::max(d2, 0.0));
+    });
+    double within = 1.2 * std::sqrt(std::max(nearest2, 0.0)) + 0.5 * side;
+    for (int step = 0; best.face == kNone && step < kSteps; ++step, within *= 2.0)
+      search(step + 1 < kSteps ? within * within : kInfinity);
+  }
+  // The one that is known may lie beyond the bound under which it was found.
+  if (best.face != kNone) search(distance2);
+  if (best.face == kNone) return std::nullopt;
+  return PhongPoint{best, std::sqrt(distance2)};
+}
+
+std::optional<PhongPoint> PhongSurface::project_exhaustively(const Vec8& y) const {
+  SurfacePoint best;
+  double distance2 = kInfinity;
+  for (Index face = 0; face < face_count(); ++face) consider(face, y, best, distance2);
+  if (best.face == kNone) return std::nullopt;
+  return PhongPoint{best, std::sqrt(distance2)};
+}
+
+std::size_t PhongSurface::memory_bytes() const {
+  return values_.capacity() * sizeof(Vec8) + tangents_.capacity() * sizeof(Basis) +
+         faces_.capacity() * sizeof(Record) + bvh_.memory_bytes();
+}
+
+}  // namespace mimicry::phong
