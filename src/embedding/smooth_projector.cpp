@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <mimicry/base/error.h>
+#include <mimicry/base/finite.h>
+#include <mimicry/embedding/smooth_projector.h>
+#include <mimicry/spatial/triangle.h>
+
+namespace mimicry::embedding {
+namespace {
+
+// Sixfold volume over the cube of the longest edge.
+constexpr double kFlat = 6e-3;
+// Barycentric coordinates nearer to 0 than this are those of a point on a face.
+constexpr double kOnFace = 1e-9;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorKind::invalid_input, "embedding: " + what + "; bake the target again");
+}
+
+// Before anything is built on it.
+Embedding checked(Embedding e, const spatial::Target& target) {
+  const TriangleMesh& mesh = target.mesh();
+  if (e.mesh_vertex_count != mesh.vertex_count() || e.mesh_face_count != mesh.face_count() ||
+      e.mesh_hash != content_hash(mesh))
+    refuse("it is of another mesh (" + std::to_string(e.mesh_vertex_count) + " vertices, " +
+           std::to_string(e.mesh_face_count) + " faces) than the target (" +
+           std::to_string(mesh.vertex_count()) + " vertices, " + std::to_string(mesh.face_count()) +
+           " faces)");
+  if (e.dimension < 1 || e.vertex_count() < e.mesh_vertex_count ||
+      e.values.size() != e.positions.size() * static_cast<std::size_t>(e.dimension))
+    refuse("its sizes contradict each other");
+  for (std::size_t v = 0; v < e.positions.size(); ++v)
+    if (!is_finite(e.positions[v]))
+      refuse("vertex " + std::to_string(v) + " of the shell is not finite");
+  for (std::size_t i = 0; i < e.values.size(); ++i)
+    if (!std::isfinite(e.values[i]))
+      refuse("the value of vertex " + std::to_string(i / static_cast<std::size_t>(e.dimension)) +
+             " is not finite");
+  for (std::size_t t = 0; t < e.tets.size(); ++t)
+    for (const Index v : e.tets[t])
+      if (v < 0 || v >= e.vertex_count())
+        refuse("tetrahedron " + std::to_string(t) + " refers to vertex " + std::to_string(v) +
+               ", which does not exist");
+  return e;
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d SmoothProjector::Tetrahedron::box() const {
+  Eigen::AlignedBox3d result(corner(0));
+  for (std::size_t k = 1; k < 4; ++k) result.extend(corner(k));
+  return result;
+}
+
+Eigen::Vector4d SmoothProjector::Tetrahedron::barycentric(const Vec3& y) const {
+  const Vec3 &a = corner(0), ab = corner(1) - a, ac = corner(2) - a, ad = corner(3) - a;
+  const Vec3 ay = y - a, ac_ad = ac.cross(ad);
+  const double volume = ab.dot(ac_ad);
+  const Vec3 ab_ay = ab.cross(ay);
+  const double b = ay.dot(ac_ad) / volume, c = ad.dot(ab_ay) / volume, d = -ac.dot(ab_ay) / volume;
+  return {1.0 - b - c - d, b, c, d};
+}
+
+// Squared distance to a point that is not inside, and the nearest point.
+double SmoothProjector::Tetrahedron::nearest(const Vec3& y, Eigen::Vector4d& bary) const {
+  double best = kInfinity;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::array<std::size_t, 3> side = {(k + 1) % 4, (k + 2) % 4, (k + 3) % 4};
+    const spatial::TrianglePoint p =
+        spatial::closest_point({corner(side[0]), corner(side[1]), corner(side[2])}, y);
+    if (!(p.distance2 < best)) continue;
+    best = p.distance2;
+    bary.setZero();
+    for (int i = 0; i < 3; ++i)
+      bary[static_cast<Eigen::Index>(side[static_cast<std::size_t>(i)])] = p.bary[i];
+  }
+  return best;
+}
+
+SmoothProjector::Tetrahedron SmoothProjector::tetrahedron(Index tet) const {
+  const std::array<Index, 4>& corners = embedding_.tets[at(tet)];
+  Tetrahedron result{embedding_.positions.data(), corners, false};
+  const Vec3 &a = result.corner(0), &b = result.corner(1), &c = result.corner(2),
+             &d = result.corner(3);
+  const double longest2 =
+      std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (d - a).squaredNorm(),
+                (c - b).squaredNorm(), (d - b).squaredNorm(), (d - c).squaredNorm()});
+  const double volume = (b - a).cross(c - a).dot(d - a);
+  result.is_flat = !(std::abs(volume) > kFlat * longest2 * std::sqrt(longest2));
+  return result;
+}
+
+SmoothProjector::SmoothProjector(Embedding embedding, const spatial::Target& target)
+    : embedding_(checked(std::move(embedding), target)),
+      target_(&target),
+      surface_(target.mesh(), target.half_edges(), embedding_.values, embedding_.dimension),
+      shell_(static_cast<Index>(embedding_.tets.size()),
+             [this](Index tet) { return tetrahedron(tet); }) {}
+
+ShellPoint SmoothProjector::locate(const Vec3& y, Index tet_hint) const {
+  ShellPoint best;
+  double depth = -kOnFace;
+  const auto consider = [&](Index tet, const Tetrahedron& t) {
+    const Eigen::Vector4d bary = t.barycentric(y);
+    const double least = bary.minCoeff();
+    if (least < depth || (least == depth && best.tet != kNone && tet > best.tet)) return false;
+    best = {tet, bary};
+    depth = least;
+    return least > kOnFace;  // then it is in no other
+  };
+  bool is_in_flat = false;
+  const bool is_hint = tet_hint >= 0 && tet_hint < shell_.size();
+  if (is_hint) {
+    const Tetrahedron t = tetrahedron(tet_hint);
+    if (t.is_flat || !consider(tet_hint, t)) {
+      best.tet = kNone;
+      depth = -kOnFace;
+    }
+  }
+  if (best.tet == kNone)
+    shell_.containing(y, [&](Index tet, const Tetrahedron& t) {
+      if (!t.is_flat) return consider(tet, t);
+      is_in_flat = true;
+      return false;
+    });
+  if (best.tet == kNone && is_in_flat) {
+    // In the box of a flat one at least. The flat ones of the shell's rim bring in a sliver of the
+    // outside, no thicker than they are.
+    double near_flat2 = kInfinity;
+    Eigen::Vector4d bary;
+    const double touching = kOnFace * target_->diagonal();
+    bool is_inside = false;
+    shell_.containing(y, [&](Index, const Tetrahedron& t) {
+      if (!t.is_flat) return false;
+      const Vec3 &a = t.corner(0), ab = t.corner(1) - a, ac = t.corner(2) - a, ad = t.corner(3) - a;
+      const double volume = ab.cross(ac).dot(ad);
+      if (std::abs(volume) > 0.0 && t.barycentric(y).minCoeff() >= -kOnFace) is_inside = true;
+      if (!is_inside) near_flat2 = std::min(near_flat2, t.nearest(y, bary));
+      return is_inside;
+    });
+    if (is_inside || near_flat2 <= touching * touching) {
+      double distance2 = kInfinity;
+      shell_.nearest(y, kInfinity, [&](Index tet, const Tetrahedron& t, double bound2) {
+        if (t.is_flat) return bound2;
+        const double d2 = t.nearest(y, bary);
+        if (!(d2 < distance2 || (d2 == distance2 && tet < best.tet))) return bound2;
+        distance2 = d2;
+        best = {tet, bary};
+        return std::min(bound2, d2);
+      });
+    }
+  }
+  if (best.tet != kNone) {
+    best.bary = best.bary.cwiseMax(0.0);
+    best.bary /= best.bary.sum();
+  }
+  return best;
+}
+
+phong::Vec8 SmoothProjector::lift(const ShellPoint& p) const {
+  assert(p.tet >= 0 && p.tet < shell_.size());
+  phong::Vec8 result = phong::Vec8::Zero();
+  const auto columns = static_cast<std::size_t>(embedding_.dimension);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double* value = embedding_.values.data() + columns * at(embedding_.tets[at(p.tet)][k]);
+    const double weight = p.bary[static_cast<Eigen::Index>(k)];
+    for (std::size_t i = 0; i < columns; ++i)
+      result[static_cast<Eigen::Index>(i)] += weight * value[i];
+  }
+  return result;
+}
+
+template <class Project>
+SmoothPoint SmoothProjector::resolve(const Vec3& y, const ScpOptions& options, ScpHint& hint,
+                                     Project&& project) const {
+  const ShellPoint place = locate(y, hint.tet);
+  hint.tet = place.tet;
+  SmoothPoint result;
+  if (place.tet == kNone) {
+    result.label = ScpLabel::outside_shell;
+  } else if (const auto found = project(lift(place))) {
+    result.surface = found->surface;
+    result.position = target_->position(found->surface);
+    if (!options.replace_failed) {
+      hint.face = result.surface.face;
+      return result;
+    }
+    result.label = ScpLabel::replaced;
+  } else {
+    result.label = ScpLabel::no_phong_solution;
+  }
+  const auto closest = target_->closest_point(y, kInfinity, hint.face);
+  assert(closest);
+  if (result.label == ScpLabel::replaced &&
+      (y - result.position).norm() <= closest->distance + target_->diagonal() / 20.0) {
+    result.label = ScpLabel::smooth;
+  } else {
+    result.surface = closest->surface;
+    result.position = closest->position;
+  }
+  hint.face = result.surface.face;
+  return result;
+}
+
+std::optional<SmoothPoint> SmoothProjector::project(const Vec3& y, const ScpOptions& options,
+                                                    ScpHint* hint) const {
+  if (!is_finite(y) || y.cwiseAbs().maxCoeff() > 1e60) return std::nullopt;
+  ScpHint none;
+  ScpHint& start = hint ? *hint : none;
+  return resolve(y, options, start,
+                 [&](const phong::Vec8& lifted) { return surface_.project(lifted, start.face); });
+}
+
+std::optional<SmoothPoint> SmoothProjector::project_exhaustively(const Vec3& y,
+                                                                 const ScpOptions& options) const {
+  if (!is_finite(y) || y.cwiseAbs().maxCoeff() > 1e60) return std::nullopt;
+  ScpHint hint;
+  return resolve(y, options, hint,
+                 [&](const phong::Vec8& lifted) { return surface_.project_exhaustively(lifted); });
+}
+
+SmoothPoint SmoothProjector::weighted_average(std::span<const SurfacePoint> points,
+                                              std::span<const double> weights,
+                                              Index face_hint) const {
+  assert(!points.empty() && points.size() == weights.size());
+  phong::Vec8 sum = phong::Vec8::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) sum += weights[i] * surface_.position(points[i]);
+  SmoothPoint result;
+  if (const auto found = surface_.project(sum, face_hint)) {
+    result.surface = found->surface;
+    result.position = target_->position(found->surface);
+    return result;
+  }
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) mean += weights[i] * target_->position(points[i]);
+  const auto closest = target_->closest_point(mean, kInfinity, face_hint);
+  assert(closest);
+  return {closest->surface, closest->position, ScpLabel::no_phong_solution};
+}
+
+std::size_t SmoothProjector::memory_bytes() const {
+  return embedding_.positions.capacity() * sizeof(Vec3) +
+         embedding_.tets.capacity() * sizeof(embedding_.tets[0]) +
+         embedding_.values.capacity() * sizeof(double) + surface_.memory_bytes() +
+         shell_.memory_bytes();
+}
+
+}  // namespace mimicry::embedding

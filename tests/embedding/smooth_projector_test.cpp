@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mimicry/bake/bake.h>
+#include <mimicry/base/error.h>
+#include <mimicry/base/random.h>
+#include <mimicry/embedding/smooth_projector.h>
+#include <mimicry/embedding/spline.h>
+#include <mimicry/mesh/shapes.h>
+
+#include "support/allocations.h"
+
+namespace mimicry::embedding {
+namespace {
+
+struct Baked {
+  std::string name;
+  spatial::Target target;
+  SmoothProjector projector;
+
+  Baked(std::string n, const TriangleMesh& mesh)
+      : name(std::move(n)), target(mesh), projector(baked(mesh), target) {}
+  static Embedding baked(const TriangleMesh& mesh) {
+    BakeOptions options;
+    options.samples = 150;
+    return bake::bake(mesh, options);
+  }
+
+  SurfacePoint random_point(Random& random) const {
+    const auto count = static_cast<std::uint32_t>(target.mesh().face_count());
+    SurfacePoint p{static_cast<Index>(random.below(count)), Vec3::Zero()};
+    const double r = std::sqrt(random.uniform()), s = random.uniform();
+    p.bary = Vec3(1.0 - r, r * (1.0 - s), r * s);
+    return p;
+  }
+  // Within the shell but for a few.
+  Vec3 query(Random& random, double reach = 0.055) const {
+    const Vec3 away(random.normal(), random.normal(), random.normal());
+    return target.position(random_point(random)) +
+           random.uniform(0.0, reach) * target.diagonal() * away.normalized();
+  }
+};
+
+// Baked once; every test reads them only.
+const std::vector<std::unique_ptr<Baked>>& shapes() {
+  static const auto all = [] {
+    std::vector<std::unique_ptr<Baked>> list;
+    list.push_back(std::make_unique<Baked>("sphere", make_sphere(7)));
+    list.push_back(std::make_unique<Baked>("torus", make_torus(30, 14)));
+    list.push_back(std::make_unique<Baked>("cube", make_box(7, 7, 7, Vec3::Constant(0.8))));
+    list.push_back(std::make_unique<Baked>("grid", make_grid(14)));
+    list.push_back(std::make_unique<Baked>("two-spheres", make_two_spheres(5)));
+    return list;
+  }();
+  return all;
+}
+const Baked& sphere() {
+  return *shapes()[0];
+}
+
+TEST(SmoothProjector, PointsOfTheMeshProjectToThemselves) {
+  Random random(1);
+  for (const auto& shape : shapes()) {
+    double worst = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      SurfacePoint p = shape->random_point(random);
+      if (i % 3 == 1) p.bary = Vec3::Unit(i % 9 / 3);
+      if (i % 3 == 2) {
+        p.bary[i % 9 / 3] = 0.0;
+        p.bary /= p.bary.sum();
+      }
+      const Vec3 y = shape->target.position(p);
+      const auto q = shape->projector.project(y);
+      ASSERT_TRUE(q);
+      EXPECT_EQ(q->label, ScpLabel::smooth);
+      worst = std::max(worst, (q->position - y).norm());
+    }
+    EXPECT_LT(worst, 1e-9 * shape->target.diagonal()) << shape->name;
+  }
+}
+
+TEST(SmoothProjector, FastEqualsExhaustiveWhateverTheHint) {
+  Random random(2);
+  for (const auto& shape : shapes()) {
+    ScpHint warm;
+    for (int i = 0; i < 150; ++i) {
+      const Vec3 y = shape->query(random);
+      const ScpOptions options{i % 2 == 0};
+      const auto truth = shape->projector.project_exhaustively(y, options);
+      const auto cold = shape->projector.project(y, options);
+      const auto fast = shape->projector.project(y, options, &warm);
+      for (const auto& q : {cold, fast}) {
+        ASSERT_EQ(q->label, truth->label) << shape->name;
+        ASSERT_EQ(q->surface.face, truth->surface.face) << shape->name;
+        ASSERT_EQ(q->surface.bary, truth->surface.bary) << shape->name;
+        ASSERT_EQ(q->position, truth->position) << shape->name;
+      }
+    }
+  }
+}
+
+TEST(SmoothProjector, LocatesInTheTetrahedronThatContains) {
+  Random random(3);
+  for (const auto& shape : shapes()) {
+    const Embedding& e = shape->projector.embedding();
+    int outside = 0;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 y = shape->query(random);
+      const ShellPoint place = shape->projector.locate(y);
+      if (place.tet == kNone) {
+        // Everything within the offset is covered.
+        const auto closest = shape->target.closest_point(y);
+        EXPECT_GT(closest->distance, 0.99 * e.options.offset * shape->target.diagonal());
+        ++outside;
+        continue;
+      }
+      EXPECT_GE(place.bary.minCoeff(), 0.0);
+      EXPECT_NEAR(place.bary.sum(), 1.0, 1e-14);
+      Vec3 back = Vec3::Zero();
+      double size = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec3& corner =
+            e.positions[static_cast<std::size_t>(e.tets[static_cast<std::size_t>(place.tet)][k])];
+        back += place.bary[static_cast<Eigen::Index>(k)] * corner;
+        size = std::max(size, (corner - y).norm());
+      }
+      // In a flat one y is drawn to the nearest other by at most its thickness.
+      EXPECT_LT((back - y).norm(), 6e-3 * size) << shape->name;
+    }
+    EXPECT_LT(outside, 60) << shape->name;
+  }
+}
+
+TEST(SmoothProjector, AnswersAreLabelled) {
+  Random random(4);
+  for (const auto& shape : shapes()) {
+    const double diagonal = shape->target.diagonal();
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 y = shape->query(random, i % 2 == 0 ? 0.05 : 0.5);
+      const auto q = shape->projector.project(y, {true});
+      ASSERT_TRUE(q);
+      const auto closest = shape->target.closest_point(y);
+      if (q->label == ScpLabel::smooth) {
+        EXPECT_LE((y - q->position).norm(), closest->distance + diagonal / 20.0);
+      } else {
+        EXPECT_EQ(q->position, closest->position);
+      }
+    }
+    const Vec3 far = Vec3(1e9, -2e8, 3e7) * diagonal;
+    EXPECT_EQ(shape->projector.project(far)->label, ScpLabel::outside_shell);
+  }
+}
+
+TEST(SmoothProjector, WhatIsNotFiniteHasNoAnswer) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(sphere().projector.project(Vec3(nan, 0, 0)));
+  EXPECT_FALSE(sphere().projector.project(Vec3(0, kInfinity, 0)));
+  EXPECT_FALSE(sphere().projector.project(Vec3(0, 0, 1e200)));
+  EXPECT_FALSE(sphere().projector.project_exhaustively(Vec3(nan, 0, 0)));
+}
+
+TEST(SmoothProjector, TheSphereIsSmootherThanItsFacets) {
+  // On a circle outside the sphere snap jumps over corners' fans: steps of 0 beside steps over
+  // whole facets. The ideal ratio |dq| / |dp| is 1 / 1.08 everywhere.
+  const Baked& shape = sphere();
+  double smooth_worst = 0.0, snap_worst = 0.0;
+  Vec3 p0, smooth0, snap0;
+  constexpr int kSteps = 3000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double a = 2.0 * 3.141592653589793 * i / kSteps;
+    const Vec3 p = 1.08 * Vec3(std::cos(a), 0.6 * std::sin(a), 0.8 * std::sin(a));
+    const auto q = shape.projector.project(p);
+    ASSERT_EQ(q->label, ScpLabel::smooth);
+    const auto s = shape.target.closest_point(p);
+    if (i > 0) {
+      const double step = (p - p0).norm() / 1.08;
+      smooth_worst = std::max(smooth_worst, std::abs((q->position - smooth0).norm() / step - 1.0));
+      snap_worst = std::max(snap_worst, std::abs((s->position - snap0).norm() / step - 1.0));
+    }
+    p0 = p;
+    smooth0 = q->position;
+    snap0 = s->position;
+  }
+  EXPECT_GT(snap_worst, 0.9);
+  EXPECT_LT(smooth_worst, 0.5 * snap_worst);
+}
+
+TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
+  const Baked& shape = sphere();
+  const auto refused = [](Embedding e, const spatial::Target& target, const std::string& what) {
+    try {
+      const SmoothProjector projector(std::move(e), target);
+      ADD_FAILURE() << what;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(what));
+    }
+  };
+  refused(shape.projector.embedding(), shapes()[1]->target, "another mesh");
+  std::vector<Vec3> moved(shape.target.mesh().positions().begin(),
+                          shape.target.mesh().positions().end());
+  moved[5][1] += 1e-12;
+  refused(shape.projector.embedding(), spatial::Target(shape.target.mesh().with_positions(moved)),
+          "another mesh");
+  Embedding e = shape.projector.embedding();
+  e.tets[7][2] = e.vertex_count();
+  refused(e, shape.target, "tetrahedron 7");
+  e = shape.projector.embedding();
+  e.values.pop_back();
+  refused(e, shape.target, "contradict");
+  e = shape.projector.embedding();
+  e.values[17] = kInfinity;
+  refused(e, shape.target, "vertex 2");
+}
+
+TEST(SmoothProjector, QueriesAllocateNothing) {
+  Random random(5);
+  for (const auto& shape : shapes()) {
+    std::vector<Vec3> queries;
+    for (int i = 0; i < 40; ++i) queries.push_back(shape->query(random, 0.2));
+    ScpHint hint;
+    const long before = test::allocation_count();
+    for (const Vec3& y : queries) shape->projector.project(y, {true}, &hint);
+    EXPECT_EQ(test::allocation_count(), before);
+  }
+}
+
+TEST(WeightedAverage, OfOnePointIsThePoint) {
+  Random random(6);
+  for (const auto& shape : shapes())
+    for (int i = 0; i < 40; ++i) {
+      const std::array<SurfacePoint, 3> points = {
+          shape->random_point(random), shape->random_point(random), shape->random_point(random)};
+      const std::array<double, 3> weights = {0.0, 1.0, 0.0};
+      const SmoothPoint q = shape->projector.weighted_average(points, weights);
+      EXPECT_LT((q.position - shape->target.position(points[1])).norm(),
+                1e-9 * shape->target.diagonal());
+    }
+}
+
+TEST(Spline, OnAPlaneIsThePlanesSpline) {
+  const Baked& grid = *shapes()[3];
+  std::vector<SurfacePoint> controls;
+  for (const Vec2& p :
+       {Vec2(-0.5, -0.4), Vec2(-0.2, 0.3), Vec2(0.1, -0.2), Vec2(0.5, 0.4), Vec2(0.6, -0.3)})
+    controls.push_back(grid.target.closest_point(Vec3(p[0], p[1], 0.0))->surface);
+  const auto at = [&](std::size_t i) { return grid.target.position(controls[i]); };
+  // Where two spans meet: a sixth, four sixths, a sixth.
+  const SmoothPoint joint = b_spline_point(grid.projector, controls, 1.0);
+  // The scaling of the embedding's distances leaves a grid flat but for its quality.
+  EXPECT_LT((joint.position - (at(1) + 4.0 * at(2) + at(3)) / 6.0).norm(), 0.02);
+}
+
+TEST(Spline, IsSmoothOnTheSurface) {
+  for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
+    // Controls about a fifth of the shape apart.
+    std::vector<SurfacePoint> controls;
+    for (int i = 0; i < 7; ++i) {
+      const double a = 0.35 * i;
+      controls.push_back(
+          shape->target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))
+              ->surface);
+    }
+    double coarse = 0.0, fine = 0.0;  // largest angle between consecutive steps
+    for (const Index points : {200, 800}) {
+      const auto curve = b_spline_curve(shape->projector, controls, points);
+      double& worst = points == 200 ? coarse : fine;
+      for (std::size_t i = 2; i < curve.size(); ++i) {
+        EXPECT_EQ(curve[i].label, ScpLabel::smooth);
+        const Vec3 a = curve[i - 1].position - curve[i - 2].position;
+        const Vec3 b = curve[i].position - curve[i - 1].position;
+        worst = std::max(worst, std::atan2(a.cross(b).norm(), a.dot(b)));
+      }
+    }
+    // What is left of the angle is the surface's own: edges between facets, bent by 10 degrees on
+    // the sphere.
+    EXPECT_LT(fine, 0.35) << shape->name;
+    EXPECT_LT(fine, 1.2 * coarse) << shape->name;
+  }
+}
+
+}  // namespace
+}  // namespace mimicry::embedding
