@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/curves.h>
@@ -139,11 +142,12 @@ std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh
   return points;
 }
 
-io::CurveRecord draw(const spatial::Target& target, const TechniqueInfo& info, const Stroke& stroke,
-                     const session::SessionOptions& options, Row& row) {
+io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
+                     const Stroke& stroke, const session::SessionOptions& options, Row& row) {
+  const spatial::Target& target = *canvas.target;
   session::SessionOptions sized = options;
   sized.expected_frames = stroke.frames.size();
-  session::StrokeSession session({&target}, info, sized);
+  session::StrokeSession session(canvas, info, sized);
   const auto start = std::chrono::steady_clock::now();
   session.begin(stroke.model_to_world);
   for (const stroke::Frame& frame : stroke.frames) session.add(frame);
@@ -245,6 +249,15 @@ void run(const Arguments& args) {
       args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
+  technique::Canvas canvas{&target};
+  std::optional<embedding::SmoothProjector> projector;
+  if (std::any_of(chosen.begin(), chosen.end(),
+                  [](const auto* info) { return info->needs_bake; })) {
+    ProgressLine progress("baking");
+    projector.emplace(bake::bake(named.mesh, {}, 2), target);
+    canvas.projector = &*projector;
+  }
+
   io::CurveSet set{named.name, {}};
   std::vector<Row> rows;
   {
@@ -253,7 +266,7 @@ void run(const Arguments& args) {
       options.technique = options_for(*info, given);
       rows.push_back({.technique = info});
       for (const Stroke& stroke : strokes) {
-        set.curves.push_back(draw(target, *info, stroke, options, rows.back()));
+        set.curves.push_back(draw(canvas, *info, stroke, options, rows.back()));
         progress.update(set.curves.size(), chosen.size() * strokes.size());
       }
     }

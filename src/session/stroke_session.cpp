@@ -1,3 +1,5 @@
+#include <cassert>
+
 #include <mimicry/base/error.h>
 #include <mimicry/session/stroke_session.h>
 
@@ -10,6 +12,7 @@ StrokeSession::StrokeSession(const technique::Canvas& canvas,
       technique_(&technique),
       options_(options),
       builder_(canvas.target->mesh(), canvas.target->half_edges()) {
+  assert(!technique.needs_bake || canvas.projector);
   builder_.reserve(options.expected_frames);
 }
 

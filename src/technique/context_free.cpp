@@ -19,6 +19,12 @@ Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const
   step.memory.surface = surface;
   step.memory.position = position;
   step.memory.time_s = frame.time_s;
+  if (!memory.anchored) {
+    step.memory.points = 1;
+  } else if (frame.controller.position != memory.pen) {
+    step.memory.points = memory.points + 1;
+    step.memory.motion = frame.controller.position - memory.pen;
+  }
   return step;
 }
 

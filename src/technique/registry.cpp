@@ -21,7 +21,19 @@ constexpr OptionInfo kNozzle = {
 
 constexpr std::array<OptionInfo, 1> kSprayOptions = {kNozzle};
 
-constexpr std::array<OptionInfo, 4> kSoftAnchorOptions = {{
+constexpr OptionInfo kReplaceFailed = {
+    "replace-failed",
+    "",
+    "1: smooth points that fail the paper's test are replaced by closest points; 0: they stay",
+    [](const Options& o) { return std::span<const double>(&o.replace_failed, 1); },
+    [](Options& o) { return std::span<double>(&o.replace_failed, 1); },
+    0.0,
+    1.0};
+
+constexpr std::array<OptionInfo, 1> kSmoothOptions = {kReplaceFailed};
+constexpr std::array<OptionInfo, 2> kSpraySmoothOptions = {kNozzle, kReplaceFailed};
+
+constexpr std::array<OptionInfo, 5> kMimicryOptions = {{
     kNozzle,
     {"soft-anchor", "", "1: carry over what the curve did not follow; 0: do not",
      [](const Options& o) { return std::span<const double>(&o.soft_anchor.on, 1); },
@@ -32,9 +44,13 @@ constexpr std::array<OptionInfo, 4> kSoftAnchorOptions = {{
     {"soft-anchor-limit", "mm", "length carried over at most, in the world",
      [](const Options& o) { return std::span<const double>(&o.soft_anchor.limit_mm, 1); },
      [](Options& o) { return std::span<double>(&o.soft_anchor.limit_mm, 1); }, 0.0, 100.0},
+    kReplaceFailed,
 }};
+// The same without what it does not have.
+constexpr std::array<OptionInfo, 4> kLiveOptions = {kMimicryOptions[0], kMimicryOptions[1],
+                                                    kMimicryOptions[2], kMimicryOptions[3]};
 
-constexpr std::array<TechniqueInfo, 6> kTechniques = {{
+constexpr std::array<TechniqueInfo, 13> kTechniques = {{
     {"occlude",
      "along the line of sight: from the eye through the pen, to what the pen hides",
      "3.1.1",
@@ -52,11 +68,25 @@ constexpr std::array<TechniqueInfo, 6> kTechniques = {{
      {},
      head_centric},
     {"snap", "to the closest point of the surface", "3.1.2", false, false, {}, snap},
+    {"snap-smooth", "to the smooth closest point of the surface", "3.1.2", false, true,
+     kSmoothOptions, snap_smooth},
     {"anchored-closest", "the hand's motion is added to the last point, then the closest point",
      "4.1", true, false, kSprayOptions, anchored_closest},
+    {"mimicry", "the hand's motion is added to the last point, then the smooth closest point",
+     "Eq. mimicry", true, true, kMimicryOptions, mimicry},
+    {"mimicry-planar", "along the surface's section with the plane of the hand's last two motions",
+     "4.2", true, false, kSprayOptions, mimicry_planar},
+    {"mimicry-offset", "as mimicry, without the motion toward or from the surface below the hand",
+     "Eq. offset", true, true, kSpraySmoothOptions, mimicry_offset},
+    {"mimicry-parallel", "as mimicry, without the motion toward or from the surface at the curve",
+     "Eq. parallel", true, true, kSpraySmoothOptions, mimicry_parallel},
+    {"anchored-ray-plane", "a ray across the motion, in its plane with the last ray", "4.3", true,
+     false, kSprayOptions, anchored_ray_plane},
+    {"anchored-ray-transport", "the last ray's direction, turned as the motion turned", "4.3", true,
+     false, kSprayOptions, anchored_ray_transport},
     {"mimicry-live",
      "the hand's motion is added to the last point, then back along the smoothed normal; no bake",
-     "-", true, false, kSoftAnchorOptions, mimicry_live},
+     "-", true, false, kLiveOptions, mimicry_live},
 }};
 
 }  // namespace

@@ -9,9 +9,19 @@ Step occlude(const Canvas&, const Memory&, const stroke::Frame&, const Options&)
 Step spraycan(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 Step head_centric(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 Step snap(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step snap_smooth(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 
 // Anchored techniques (paper, section 4).
 Step anchored_closest(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step mimicry(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step mimicry_planar(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step mimicry_offset(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step mimicry_parallel(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step anchored_ray_plane(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Step anchored_ray_transport(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+
+// Anchored, without a bake (ours).
+Step mimicry_live(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 
 // Anchored, without a bake (ours).
 Step mimicry_live(const Canvas&, const Memory&, const stroke::Frame&, const Options&);

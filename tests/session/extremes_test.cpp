@@ -23,6 +23,7 @@ TEST(Extremes, UnitsAndOriginOfTheModelDoNotMatter) {
   const stroke::Stroke stroke = test::waving_stroke(200);
   const spatial::Target reference(mesh);
   for (const auto& info : technique::techniques()) {
+    if (info.needs_bake) continue;  // baked_test.cpp
     const ProjectedCurve expected = project({&reference}, info, stroke);
     for (const Extreme& e : {Extreme{1e-6, Vec3::Zero()}, Extreme{1e6, Vec3::Zero()},
                              Extreme{1.0, Vec3(1e4, -1e4, 1e4)}}) {
@@ -47,6 +48,7 @@ TEST(Extremes, StrokeTenMetresAwayWorks) {
   stroke::Stroke stroke = test::waving_stroke(100);
   stroke.model_to_world.translation = Vec3(0, 0, -10);
   for (const auto& info : technique::techniques()) {
+    if (info.needs_bake) continue;  // baked_test.cpp
     const ProjectedCurve curve = project({&target}, info, stroke);
     for (const auto& p : curve.points) EXPECT_TRUE(p.position.allFinite()) << info.name;
     // Lines of sight and the head's axis miss a target that far aside; what looks for it finds it.
@@ -63,9 +65,12 @@ TEST(Extremes, DuplicateFramesAddPointsWithoutLength) {
   doubled.frames.clear();
   for (const auto& frame : stroke.frames) doubled.frames.insert(doubled.frames.end(), 2, frame);
   for (const auto& info : technique::techniques()) {
+    if (info.needs_bake) continue;  // baked_test.cpp
     const ProjectedCurve once = project({&target}, info, stroke);
     const ProjectedCurve twice = project({&target}, info, doubled);
-    ASSERT_EQ(twice.points.size(), 2 * once.points.size()) << info.name;
+    // Without any motion yet a ray across it is undefined: the first frame's double misses.
+    const std::size_t missed = info.name == "anchored-ray-plane" ? 1 : 0;
+    ASSERT_EQ(twice.points.size() + missed, 2 * once.points.size()) << info.name;
     EXPECT_NEAR(curve::length(twice), curve::length(once), 1e-9) << info.name;
   }
 }
@@ -73,6 +78,7 @@ TEST(Extremes, DuplicateFramesAddPointsWithoutLength) {
 TEST(Extremes, FrameRatesFrom20To1000HzGiveTheSameShape) {
   const spatial::Target target(make_sphere(24));
   for (const auto& info : technique::techniques()) {
+    if (info.needs_bake) continue;  // baked_test.cpp
     const ProjectedCurve slow = project({&target}, info, test::waving_stroke(41, 20.0));
     const ProjectedCurve fast = project({&target}, info, test::waving_stroke(2001, 1000.0));
     ASSERT_FALSE(slow.points.empty()) << info.name;
@@ -89,9 +95,11 @@ TEST(Extremes, SmallAndOddTargets) {
        {one, make_two_spheres(4), make_grid(4), make_moebius_strip(16)}) {
     // The Moebius strip's seam has two faces in the same direction: allowed on request.
     const spatial::Target target(mesh, {.allow_nonmanifold = true});
-    for (const auto& info : technique::techniques())
+    for (const auto& info : technique::techniques()) {
+      if (info.needs_bake) continue;  // baked_test.cpp
       for (const auto& p : project({&target}, info, stroke).points)
         ASSERT_TRUE(p.position.allFinite()) << info.name;
+    }
   }
   EXPECT_THROW(spatial::Target(TriangleMesh{}), Error);
   const TriangleMesh flat({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}, {{0, 1, 2}});

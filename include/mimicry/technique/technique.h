@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/mesh/surface_point.h>
 #include <mimicry/spatial/target.h>
 #include <mimicry/stroke/frame.h>
@@ -14,6 +15,8 @@ namespace mimicry::technique {
 struct Canvas {
   const spatial::Target* target = nullptr;
   double metres_per_unit = 1.0;  ///< at which the target is shown; > 0; a session sets its own
+  /// For techniques that need a bake (`TechniqueInfo::needs_bake`); of the same target.
+  const embedding::SmoothProjector* projector = nullptr;
 };
 
 /// How a point was found.
@@ -22,18 +25,26 @@ enum class Answer : std::uint8_t {
   ray,      ///< first hit of a ray
   closest,  ///< closest point of the surface
   smooth,   ///< a smooth projection
-  section,  ///< end of a walk along the surface, where the smooth projection has no answer
+  section,  ///< end of a walk along the surface, or closest point of a section of it
+  // Closest points in place of smooth ones (embedding::ScpLabel).
+  outside_shell,
+  no_phong_solution,
+  replaced,
 };
 
 /// What is carried from frame to frame, in model space. The anchor is the last frame that had a
 /// point. A stroke starts with Memory{}. Plain data: copying it is all there is to undo a frame.
 struct Memory {
-  bool anchored = false;         ///< there is an anchor: the first point was found
-  Vec3 pen = Vec3::Zero();       ///< the anchor's p
-  SurfacePoint surface;          ///< the anchor's q; also a hint where to search
-  Vec3 position = Vec3::Zero();  ///< the same in space
-  double time_s = 0.0;           ///< of the anchor's frame
-  Vec3 rest = Vec3::Zero();      ///< of the soft anchor: r - q of the anchor's frame
+  bool anchored = false;          ///< there is an anchor: the first point was found
+  Vec3 pen = Vec3::Zero();        ///< the anchor's p
+  SurfacePoint surface;           ///< the anchor's q; also a hint where to search
+  Vec3 position = Vec3::Zero();   ///< the same in space
+  double time_s = 0.0;            ///< of the anchor's frame
+  Vec3 rest = Vec3::Zero();       ///< of the soft anchor: r - q of the anchor's frame
+  Index points = 0;               ///< found, not counting those of a pen at rest
+  Vec3 motion = Vec3::Zero();     ///< the last motion of the pen that was not zero
+  Vec3 direction = Vec3::Zero();  ///< the last plane's normal or ray's direction; zero: none yet
+  Index tet = kNone;              ///< a hint where to search in the shell
 };
 
 /// An anchor that gives way: r - q, what the curve did not follow of the hand's motion, is carried
@@ -48,6 +59,9 @@ struct Options {
   /// Spray direction in the controller's own axes; any length above 0.
   Vec3 nozzle = -Vec3::UnitZ();
   SoftAnchor soft_anchor;
+  /// 0 or 1: smooth points that fail the paper's test are replaced by closest points
+  /// (embedding::ScpOptions). The paper's techniques do not.
+  double replace_failed = 0.0;
 };
 
 /// The point for one frame, and what to carry to the next. `surface` and `position` are set where

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/triangle_mesh.h>
+
+namespace mimicry::technique {
+
+/// The point closest to r on the section of the surface with the plane through q, of the section's
+/// component that contains q; a component ends at boundary and non-manifold edges. normal: the
+/// plane's, unit. Of equally close points the one met first, walking from q along normal x surface
+/// normal. Cost: linear in the faces that the component crosses; no allocation.
+SurfacePoint closest_on_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
+                                const SurfacePoint& q, const Vec3& normal, const Vec3& r);
+
+}  // namespace mimicry::technique

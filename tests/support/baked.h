@@ -1,0 +1,24 @@
+#pragma once
+
+#include <mimicry/bake/bake.h>
+#include <mimicry/embedding/smooth_projector.h>
+#include <mimicry/technique/technique.h>
+
+namespace mimicry::test {
+
+/// A target with a quick bake: few samples, as the tests' shapes are simple.
+struct BakedTarget {
+  spatial::Target target;
+  embedding::SmoothProjector projector;
+
+  explicit BakedTarget(const TriangleMesh& mesh) : target(mesh), projector(baked(mesh), target) {}
+  technique::Canvas canvas() const { return {&target, 1.0, &projector}; }
+
+  static embedding::Embedding baked(const TriangleMesh& mesh) {
+    embedding::BakeOptions options;
+    options.samples = 120;
+    return bake::bake(mesh, options);
+  }
+};
+
+}  // namespace mimicry::test
