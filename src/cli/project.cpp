@@ -3,14 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/curves.h>
@@ -21,6 +19,7 @@
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/polyline.h>
 
+#include "cli/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
@@ -249,14 +248,7 @@ void run(const Arguments& args) {
       args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
-  technique::Canvas canvas{&target};
-  std::optional<embedding::SmoothProjector> projector;
-  if (std::any_of(chosen.begin(), chosen.end(),
-                  [](const auto* info) { return info->needs_bake; })) {
-    ProgressLine progress("baking");
-    projector.emplace(bake::bake(named.mesh, {}, 2), target);
-    canvas.projector = &*projector;
-  }
+  const PreparedCanvas prepared(target, chosen);
 
   io::CurveSet set{named.name, {}};
   std::vector<Row> rows;
@@ -266,7 +258,7 @@ void run(const Arguments& args) {
       options.technique = options_for(*info, given);
       rows.push_back({.technique = info});
       for (const Stroke& stroke : strokes) {
-        set.curves.push_back(draw(canvas, *info, stroke, options, rows.back()));
+        set.curves.push_back(draw(prepared.canvas(), *info, stroke, options, rows.back()));
         progress.update(set.curves.size(), chosen.size() * strokes.size());
       }
     }

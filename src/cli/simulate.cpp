@@ -14,6 +14,7 @@
 #include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
 
+#include "cli/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
@@ -99,13 +100,13 @@ Similarity placement(const spatial::Target& target, double metres_per_unit, bool
   return placed;
 }
 
-stroke::Stroke make_stroke(const spatial::Target& target, const stroke::Intention& intended,
+stroke::Stroke make_stroke(const technique::Canvas& canvas, const stroke::Intention& intended,
                            const Similarity& placed, const study::SimulationOptions& options,
-                           std::uint64_t seed, const std::string& technique) {
-  if (technique.empty()) return study::simulate(target, intended, placed, options, seed);
-  session::StrokeSession session({&target}, technique::find_technique(technique));
+                           std::uint64_t seed, const technique::TechniqueInfo* technique) {
+  if (technique == nullptr) return study::simulate(*canvas.target, intended, placed, options, seed);
+  session::StrokeSession session(canvas, *technique);
   session.begin(placed);
-  return study::simulate_closed_loop(target, intended, placed, options, seed,
+  return study::simulate_closed_loop(*canvas.target, intended, placed, options, seed,
                                      [&](const stroke::Frame& frame) -> std::optional<Vec3> {
                                        if (session.add(frame) != session::FrameStatus::inked)
                                          return std::nullopt;
@@ -130,6 +131,10 @@ void run(const Arguments& args) {
   options.rate_hz = args.rate_hz;
   options.mean_distance_m = args.distance_m;
 
+  const technique::TechniqueInfo* technique =
+      args.closed_loop.empty() ? nullptr : &technique::find_technique(args.closed_loop);
+  const PreparedCanvas prepared(target, std::span(&technique, technique == nullptr ? 0 : 1));
+
   std::vector<stroke::Stroke> strokes;
   ProgressLine progress("drawing");
   std::size_t total = 0;
@@ -141,7 +146,7 @@ void run(const Arguments& args) {
       // A curve's strokes stay the same when others are left out.
       const std::uint64_t seed = args.seed + 1000 * c + static_cast<std::uint64_t>(k);
       strokes.push_back(
-          make_stroke(target, task.curves[c], placed, options, seed, args.closed_loop));
+          make_stroke(prepared.canvas(), task.curves[c], placed, options, seed, technique));
       strokes.back().target = named.name;
       if (args.count > 1) strokes.back().id += "#" + std::to_string(k);
       progress.update(strokes.size(), total);
