@@ -9,7 +9,7 @@ namespace mimicry::spatial {
 
 struct WindingOptions {
   /// A cluster of faces is seen as dipoles from farther than this times its radius.
-  double accuracy = 2.3;
+  double accuracy = 3.0;
 };
 
 /// Generalised winding numbers by a hierarchy of dipoles with their first
@@ -22,8 +22,9 @@ class WindingNumber {
   /// O(#F log #F), about 120 bytes a face.
   explicit WindingNumber(const TriangleMesh& mesh, const WindingOptions& options = {});
 
-  /// y: finite, below 1e60. On a face anything between its two sides' values. O(log #F); error
-  /// about 1e-3 at the default accuracy.
+  /// y: finite, below 1e60. On a face anything between its two sides' values. O(log #F). Error
+  /// below 0.05 at the default accuracy, about 0.01 in the mean, which is plenty for a sign; it
+  /// falls with the square of the accuracy.
   double at(const Vec3& y) const;
   /// The sum of all solid angles: the definition.
   double at_exhaustively(const Vec3& y) const;
