@@ -77,7 +77,8 @@ struct Timed {
     double worst = 0.0;
     for (int s = 0; s < 40; ++s) {
       SurfacePoint at = random_point(random);
-      Vec3 x = target.position(at), direction = random_vector(random), before_y, before_q;
+      Vec3 x = target.position(at), direction = random_vector(random);
+      Vec3 before_y = Vec3::Zero(), before_q = Vec3::Zero();
       embedding::ScpHint hint;
       for (int i = 0; i < 200; ++i) {
         const Vec3 normal = target.normal(at);

@@ -172,7 +172,7 @@ TEST(SmoothProjector, TheSphereIsSmootherThanItsFacets) {
   // whole facets. The ideal ratio |dq| / |dp| is 1 / 1.08 everywhere.
   const Baked& shape = sphere();
   double smooth_worst = 0.0, snap_worst = 0.0;
-  Vec3 p0, smooth0, snap0;
+  Vec3 p0 = Vec3::Zero(), smooth0 = Vec3::Zero(), snap0 = Vec3::Zero();
   constexpr int kSteps = 3000;
   for (int i = 0; i <= kSteps; ++i) {
     const double a = 2.0 * 3.141592653589793 * i / kSteps;
