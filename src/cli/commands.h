@@ -15,10 +15,12 @@ enum ExitCode : int {
   kBadInput = 3,     ///< a mesh, stroke or option that cannot be used; the message says why
   kFileTrouble = 4,  ///< a file that cannot be read or written
   kPartly = 5,       ///< done, but something was left out; the message says what
+  kCancelled = 130,  ///< interrupted; nothing is left behind
 };
 
 // Each adds one subcommand, which runs when the command line has been parsed. `status` is what the
 // program will return.
+void add_bake(CLI::App& app, int& status);
 void add_geodesic(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_project(CLI::App& app, int& status);

@@ -9,6 +9,7 @@
 namespace {
 
 int exit_code_of(mimicry::ErrorKind kind) {
+  if (kind == mimicry::ErrorKind::cancelled) return mimicry::cli::kCancelled;
   return kind == mimicry::ErrorKind::io ? mimicry::cli::kFileTrouble : mimicry::cli::kBadInput;
 }
 
@@ -22,7 +23,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 unexpected failure, 2 wrong command line, 3 input that cannot be "
-      "used, 4 file that cannot be read or written, 5 done in part.");
+      "used, 4 file that cannot be read or written, 5 done in part, 130 interrupted.");
   int status = kDone;
   add_info(app, status);
   add_shapes(app, status);
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   add_project(app, status);
   add_render(app, status);
   add_geodesic(app, status);
+  add_bake(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {
