@@ -1,6 +1,4 @@
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,34 +13,15 @@
 #include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "study_mesh.h"
+
 namespace {
 
 using namespace mimicry;
 using namespace mimicry::geodesic;
 
 std::optional<TriangleMesh> bunny() {
-  std::ifstream in(std::string(MIMICRY_STUDY_DATA) + "/bunny.obj");
-  if (!in) return {};
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  std::string line;
-  while (std::getline(in, line)) {
-    std::istringstream fields(line);
-    std::string key;
-    fields >> key;
-    if (key == "v") {
-      Vec3 p;
-      fields >> p[0] >> p[1] >> p[2];
-      positions.push_back(p);
-    } else if (key == "f") {
-      std::vector<Index> polygon;
-      std::string corner;
-      while (fields >> corner) polygon.push_back(static_cast<Index>(std::stoi(corner)) - 1);
-      for (std::size_t i = 2; i < polygon.size(); ++i)
-        faces.push_back({polygon[0], polygon[i - 1], polygon[i]});
-    }
-  }
-  return TriangleMesh(std::move(positions), std::move(faces));
+  return bench::study_mesh("bunny");
 }
 
 // Each face cut into four, without smoothing: the same surface, so the same distances.

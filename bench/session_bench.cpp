@@ -1,27 +1,21 @@
 // One frame of a session with its curve piece: medians and the slowest per cent.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
-#include <mimicry/io/mesh_reader.h>
 #include <mimicry/io/targets_reader.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
 
+#include "study_mesh.h"
+
 namespace mimicry {
 namespace {
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 struct Drawing {
   spatial::Target target;
@@ -45,15 +39,13 @@ Drawing torus() {
   return draw_on(std::move(target), curves, find_shape("torus")->metres_per_unit);
 }
 
-Drawing bunny() {
-  const std::string folder = MIMICRY_STUDY_DATA;
-  const std::string mesh = bytes_of(folder + "/bunny.obj");
-  const study::TargetSet set = io::read_targets(bytes_of(folder + "/targets.json"), "targets.json");
+Drawing draw_on_bunny(const TriangleMesh& mesh) {
+  const study::TargetSet set =
+      io::read_targets(files::read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
   const study::TargetShape& shape = *set.find("bunny");
   std::vector<stroke::Intention> curves;
   for (const auto& curve : shape.curves) curves.push_back({"", false, curve.points});
-  return draw_on(spatial::Target(io::read_mesh(mesh, io::MeshFormat::obj, "bunny.obj")), curves,
-                 shape.scale);
+  return draw_on(spatial::Target(mesh), curves, shape.scale);
 }
 
 void add_frame(benchmark::State& state, const Drawing& drawing, const std::string& technique) {
@@ -88,7 +80,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::vector<std::pair<std::string, Drawing>> drawings;
   drawings.emplace_back("torus86K", torus());
-  if (std::ifstream(MIMICRY_STUDY_DATA "/bunny.obj")) drawings.emplace_back("bunny", bunny());
+  if (const auto bunny = bench::study_mesh("bunny"))
+    drawings.emplace_back("bunny", draw_on_bunny(*bunny));
   for (const auto& [name, drawing] : drawings)
     for (const auto& info : technique::techniques())
       if (!info.needs_bake)

@@ -3,10 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +13,8 @@
 
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
+
+#include "study_mesh.h"
 
 namespace {
 
@@ -27,31 +27,6 @@ using mimicry::Vec3;
 using mimicry::spatial::Target;
 
 constexpr int kQueries = 4096;
-
-TriangleMesh read_triangles(const std::string& path) {
-  std::ifstream in(path);
-  std::vector<Vec3> positions;
-  std::vector<Face> faces;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      Vec3 p;
-      words >> p[0] >> p[1] >> p[2];
-      positions.push_back(p);
-    } else if (kind == "f") {
-      Face f{};
-      for (Index& v : f) {
-        std::string corner;
-        words >> corner;
-        v = static_cast<Index>(std::stol(corner)) - 1;
-      }
-      faces.push_back(f);
-    }
-  }
-  return {positions, faces};
-}
 
 // Embree's scene with our vertices in its floats, and the queries as floats.
 class Embree {
@@ -342,9 +317,8 @@ int main(int argc, char** argv) {
   std::vector<std::shared_ptr<Scene>> scenes;
   scenes.push_back(std::make_shared<Scene>(
       "torus_86400", mimicry::make_torus(360, mimicry::kLargeTorusResolution)));
-  const TriangleMesh bunny = read_triangles(MIMICRY_STUDY_DATA "/bunny.obj");
-  if (bunny.face_count() > 0) {
-    scenes.push_back(std::make_shared<Scene>("bunny", bunny));
+  if (const auto bunny = mimicry::bench::study_mesh("bunny")) {
+    scenes.push_back(std::make_shared<Scene>("bunny", *bunny));
   } else {
     std::fprintf(stderr, "no " MIMICRY_STUDY_DATA "/bunny.obj: the bunny is left out\n");
   }
