@@ -115,6 +115,42 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(curves[0]["options"], {"nozzle": [0, 0, 1]})
         self.assertLess(sum(len(c["points"]) for c in curves), 50, "it sprays backwards")
 
+    def test_baked_file_draws_as_the_bake_in_memory(self):
+        baked, strokes = self.path("c.mimicry"), self.path("s.json")
+        run("bake", "shape:rounded-cube:6", "--out", baked, "--samples", "100")
+        run("bake", "shape:rounded-cube:6", "--out", self.path("d.mimicry"), "--samples", "100",
+            "--threads", "1")
+        with open(baked, "rb") as a, open(self.path("d.mimicry"), "rb") as b:
+            data = a.read()
+            self.assertEqual(data, b.read(), "the number of threads does not matter")
+        run("simulate", "shape:rounded-cube:6", "--out", strokes, "--rate", "30")
+        run("project", "shape:rounded-cube:6", strokes, "-t", "mimicry", "--embedding", baked,
+            "--formats", "json", "--out", self.path("o"))
+        other = run("project", "shape:rounded-cube:7", strokes, "-t", "mimicry", "--embedding", baked,
+                    "--out", self.path("o"), expect=3)
+        self.assertIn("c.mimicry", other.stderr)
+        with open(self.path("cut.mimicry"), "wb") as file:
+            file.write(data[:5000])
+        cut = run("project", "shape:rounded-cube:6", strokes, "-t", "mimicry", "--embedding",
+                  self.path("cut.mimicry"), "--out", self.path("o"), expect=3)
+        self.assertIn("cut.mimicry", cut.stderr)
+
+    def test_geodesics(self):
+        grid, out = "shape:grid:4", self.path("p.json")
+        run("geodesic", grid, "--from", "v0", "--to", "v24", "--out", out)
+        with open(out, encoding="utf-8") as file:
+            self.assertAlmostEqual(json.load(file)["length"], 8 ** 0.5, places=12)
+        run("geodesic", grid, "--from", "v0", "--out", self.path("d.csv"))
+        with open(self.path("d.csv"), encoding="utf-8") as file:
+            rows = file.read().splitlines()
+        self.assertEqual(rows[0], "vertex,distance")
+        self.assertAlmostEqual(float(rows[25].split(",")[1]), 8 ** 0.5, places=12)
+        self.assertIn("v99", run("geodesic", grid, "--from", "v99", "-o", out, expect=3).stderr)
+        apart = run("geodesic", "shape:two-spheres:2", "--from", "v0", "--to", "v80", "-o",
+                    self.path("none.json"), expect=5)
+        self.assertIn("no path", apart.stdout)
+        self.assertFalse(os.path.exists(self.path("none.json")))
+
     def test_study_targets(self):
         if not os.path.isdir(STUDY):
             self.skipTest("the study's shapes are not there: " + STUDY)
