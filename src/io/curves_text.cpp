@@ -1,6 +1,8 @@
 #include <mimicry/io/curves.h>
 #include <mimicry/io/number.h>
 
+#include "io/text.h"
+
 namespace mimicry::io {
 namespace {
 
@@ -19,14 +21,6 @@ std::string one_line(std::string name) {
   for (char& c : name)
     if (c == '\n' || c == '\r') c = ' ';
   return name;
-}
-
-// A text field of a CSV file, quoted where it has to be (RFC 4180).
-std::string csv_field(const std::string& value) {
-  if (value.find_first_of(",\"\n\r") == std::string::npos) return value;
-  std::string quoted = "\"";
-  for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 void append_csv_place(std::string& row, const Vec3& position, const SurfacePoint& surface) {

@@ -26,6 +26,9 @@ std::string_view take_word(std::string_view& rest);
 
 std::string to_lower(std::string_view word);
 
+/// A text field of a CSV file, quoted where it has to be (RFC 4180).
+std::string csv_field(const std::string& value);
+
 /// Walks over the lines of a text and counts them from 1.
 class Lines {
  public:
