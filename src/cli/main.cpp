@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   add_render(app, status);
   add_geodesic(app, status);
   add_bake(app, status);
+  add_compare(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {
