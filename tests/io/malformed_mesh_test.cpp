@@ -15,15 +15,15 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Sample {
+struct Malformed {
   std::string name;
   MeshFormat format;
   std::string bytes;
   std::size_t shortest;  // a shorter file must be refused: it lacks what its beginning promises
 };
 
-std::vector<Sample> samples() {
-  std::vector<Sample> out;
+std::vector<Malformed> samples() {
+  std::vector<Malformed> out;
   const auto add = [&](const char* name, MeshFormat format, bool text, bool counted) {
     std::string bytes = write_mesh(tetrahedron(), format, {.text = text});
     // Of a text only the last line's end may be missed unnoticed.
@@ -62,11 +62,11 @@ std::string outcome(std::string_view bytes, MeshFormat format) {
 }
 
 TEST(MalformedMesh, SamplesAreWhole) {
-  for (const Sample& sample : samples()) EXPECT_EQ(outcome(sample.bytes, sample.format), "");
+  for (const Malformed& sample : samples()) EXPECT_EQ(outcome(sample.bytes, sample.format), "");
 }
 
 TEST(MalformedMesh, FileCutAtAnyByteIsRefusedOrASmallerMesh) {
-  for (const Sample& sample : samples()) {
+  for (const Malformed& sample : samples()) {
     SCOPED_TRACE(sample.name);
     for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
       // A copy of its own size lets the sanitizers see a read beyond the end.
@@ -81,7 +81,7 @@ TEST(MalformedMesh, FileCutAtAnyByteIsRefusedOrASmallerMesh) {
 }
 
 TEST(MalformedMesh, AnyByteChangedIsRefusedOrAnotherMesh) {
-  for (const Sample& sample : samples()) {
+  for (const Malformed& sample : samples()) {
     SCOPED_TRACE(sample.name);
     std::string bytes = sample.bytes;
     for (char& byte : bytes) {
@@ -99,8 +99,8 @@ TEST(MalformedMesh, AnyByteChangedIsRefusedOrAnotherMesh) {
 }
 
 TEST(MalformedMesh, OneFormatTakenForAnotherIsRefused) {
-  for (const Sample& sample : samples())
-    for (const Sample& other : samples()) {
+  for (const Malformed& sample : samples())
+    for (const Malformed& other : samples()) {
       if (sample.format == other.format) continue;
       EXPECT_NE(outcome(sample.bytes, other.format), "") << sample.name << " as " << other.name;
     }
