@@ -9,6 +9,7 @@
 #include <mimicry/curve/curvature.h>
 #include <mimicry/curve/edit.h>
 #include <mimicry/geodesic/along.h>
+#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"
@@ -206,6 +207,52 @@ TEST(Simplify, ALargeToleranceLeavesTheEnds) {
   EXPECT_EQ(simplify(curve, torus.mesh, torus.edges, 0.0).points.size(), curve.points.size());
   EXPECT_TRUE(simplify({}, torus.mesh, torus.edges, 1.0).points.empty());
   EXPECT_THROW(simplify(curve, torus.mesh, torus.edges, -1.0), Error);
+}
+
+TEST(Slice, PartsMakeUpTheWhole) {
+  const Drawn torus{make_torus(40, 16)};
+  const ProjectedCurve ring = noisy_ring(torus, true);
+  for (const std::size_t middle : {std::size_t{1}, std::size_t{20}, ring.points.size() - 2}) {
+    const ProjectedCurve head = slice(ring, 0, middle + 1);
+    const ProjectedCurve tail = slice(ring, middle, ring.points.size());
+    EXPECT_FALSE(head.closed || tail.closed);
+    EXPECT_EQ(head.points.size() + tail.points.size(), ring.points.size() + 1);
+    EXPECT_EQ(head.crossings.size() + tail.crossings.size(), ring.crossings.size());
+    EXPECT_NEAR(length(head) + length(tail), length(ring), 1e-12);
+    const auto polyline = polylines(tail, torus.mesh);
+    ASSERT_EQ(polyline.size(), 1u);
+    EXPECT_EQ(polyline[0].back(), ring.points.back().position);
+  }
+  EXPECT_TRUE(slice(ring, 5, 6).pieces.empty());
+  EXPECT_THROW(slice(ring, 5, 5), Error);
+  EXPECT_THROW(slice(ring, 5, ring.points.size() + 1), Error);
+}
+
+TEST(Resampled, StepsAreEqualAndTimesLieBetween) {
+  const Drawn torus{make_torus(40, 16)};
+  ProjectedCurve ring = noisy_ring(torus, true);
+  for (std::size_t i = 0; i < ring.points.size(); ++i) {
+    ring.points[i].time_s = 0.1 * static_cast<double>(i);
+    ring.points[i].frame = static_cast<Index>(i);
+  }
+  const std::vector<Vec3> normals = angle_weighted_normals(torus.mesh);
+  const ProjectedCurve even = resampled(ring, torus.mesh, torus.edges, normals, 1000);
+  ASSERT_EQ(even.points.size(), 1000u);
+  EXPECT_TRUE(even.closed);
+  // Corners are cut by steps of a tenth of a piece.
+  EXPECT_NEAR(length(even), length(ring), 0.02 * length(ring));
+  for (std::size_t i = 1; i < even.points.size(); ++i) {
+    EXPECT_LE(even.pieces[i - 1].length, length(ring) / 999 * (1 + 1e-9));
+    EXPECT_GE(even.points[i].time_s, even.points[i - 1].time_s);
+    EXPECT_EQ(even.points[i].frame,
+              static_cast<Index>(std::floor(even.points[i].time_s / 0.1 + 1e-9)));
+  }
+  EXPECT_THROW(resampled(ring, torus.mesh, torus.edges, normals, 1), Error);
+
+  ring.pieces[40].kind = PieceKind::gap;
+  ring.pieces[40].crossing_count = 0;
+  const ProjectedCurve broken = resampled(ring, torus.mesh, torus.edges, normals, 1000);
+  EXPECT_EQ(polylines(broken, torus.mesh).size(), 2u);
 }
 
 }  // namespace

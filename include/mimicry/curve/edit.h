@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <mimicry/curve/projected_curve.h>
@@ -41,5 +42,18 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
 /// for a tolerance below 0 or not finite. O(points log points) paths as a rule.
 ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
                         const HalfEdges& half_edges, double tolerance);
+
+/// The open curve of points [first, end), with all that joins them. Throws Error(invalid_input)
+/// where that is not a range of at least one point. O(its points and crossings).
+ProjectedCurve slice(const ProjectedCurve& curve, std::size_t first, std::size_t end);
+
+/// The curve as `count` points at equal steps of length (`resample`), joined by shortest paths;
+/// broken where a gap lies between two of them. Times and pen distances are interpolated, a point's
+/// frame is that of the last point before it. vertex_normals: #V by 3, unit. Throws
+/// Error(invalid_input) for a count below 2 or a curve without points. O(points + crossings) and
+/// a path a point.
+ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
+                         const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
+                         std::size_t count);
 
 }  // namespace mimicry::curve

@@ -1,0 +1,90 @@
+#include <array>
+#include <cmath>
+
+#include <mimicry/io/curves_glb.h>
+
+#include "capi/handles.h"
+
+using namespace mimicry;
+using namespace mimicry::capi;
+
+struct mimicry_curve_list {
+  std::shared_ptr<const spatial::Target> target;
+  std::vector<io::CurveRecord> records;
+};
+
+namespace {
+
+using Color = std::array<unsigned char, 3>;
+
+std::string file_bytes(mimicry_curve_format format, const io::CurveSet& set,
+                       const TriangleMesh& mesh, const std::vector<Color>& colors, double radius) {
+  switch (format) {
+    case MIMICRY_CURVES_JSON:
+      return io::write_curves_json(set, mesh);
+    case MIMICRY_CURVES_OBJ:
+      return io::write_curves_obj(set, mesh);
+    case MIMICRY_CURVES_CSV:
+      return io::write_curves_csv(set, mesh);
+    case MIMICRY_CURVES_PLY:
+      return io::write_curves_ply(set, mesh, colors);
+    case MIMICRY_CURVES_GLB:
+      if (!std::isfinite(radius) || radius <= 0.0)
+        throw Error(ErrorKind::invalid_input, "the tubes' radius is not above 0");
+      return io::write_curves_glb(set, mesh, colors, radius);
+  }
+  throw Error(ErrorKind::invalid_input,
+              "there is no curve format " + std::to_string(static_cast<int>(format)));
+}
+
+}  // namespace
+
+mimicry_status mimicry_curves_write(const mimicry_target* target, const char* target_name,
+                                    const mimicry_curve* const* curves, size_t count,
+                                    mimicry_curve_format format, const uint8_t* colors,
+                                    double tube_radius, mimicry_bytes** out) {
+  return made(out, [&] {
+    require(target, "target");
+    if (count > 0) require(curves, "curves");
+    io::CurveSet set{std::string(text(target_name, "target_name")), {}};
+    std::vector<Color> chosen(count, Color{});
+    for (size_t i = 0; i < count; ++i) {
+      require(curves[i], "a curve");
+      if (curves[i]->target != target->target)
+        throw Error(ErrorKind::invalid_input,
+                    "curve " + std::to_string(i) + " is of another target; write a file for each");
+      set.curves.push_back(curves[i]->record);
+      if (colors) std::copy_n(colors + 3 * i, 3, chosen[i].begin());
+    }
+    return mimicry_bytes{file_bytes(format, set, target->target->mesh(), chosen, tube_radius)};
+  });
+}
+
+mimicry_status mimicry_curves_read(const mimicry_target* target, const void* data, size_t size,
+                                   const char* name, mimicry_curve_list** out) {
+  return made(out, [&] {
+    require(target, "target");
+    io::CurveSet set =
+        io::read_curves_json(content(data, size), text(name, "name"), target->target->mesh());
+    return mimicry_curve_list{target->target, std::move(set.curves)};
+  });
+}
+
+size_t mimicry_curve_list_count(const mimicry_curve_list* list) {
+  return list ? list->records.size() : 0;
+}
+
+mimicry_status mimicry_curve_list_get(const mimicry_curve_list* list, size_t number,
+                                      mimicry_curve** out) {
+  return made(out, [&] {
+    require(list, "list");
+    if (number >= list->records.size())
+      throw Error(ErrorKind::invalid_input, "curve " + std::to_string(number) + " of a list of " +
+                                                std::to_string(list->records.size()));
+    return make_curve(list->target, list->records[number]);
+  });
+}
+
+void mimicry_curve_list_destroy(mimicry_curve_list* list) {
+  delete list;
+}

@@ -1,0 +1,89 @@
+#include <mimicry/io/strokes.h>
+
+#include "capi/handles.h"
+
+using namespace mimicry;
+using namespace mimicry::capi;
+
+struct mimicry_strokes {
+  std::vector<stroke::Stroke> strokes;
+
+  const stroke::Stroke& at(std::size_t number) const {
+    if (number >= strokes.size())
+      throw Error(ErrorKind::invalid_input,
+                  "stroke " + std::to_string(number) + " of " + std::to_string(strokes.size()));
+    return strokes[number];
+  }
+};
+
+mimicry_status mimicry_strokes_create(mimicry_strokes** out) {
+  return made(out, [] { return mimicry_strokes{}; });
+}
+
+mimicry_status mimicry_strokes_read(const void* data, size_t size, const char* name,
+                                    mimicry_strokes** out) {
+  return made(out, [&] {
+    return mimicry_strokes{io::read_strokes(content(data, size), text(name, "name"))};
+  });
+}
+
+mimicry_status mimicry_strokes_append(mimicry_strokes* strokes, const char* id,
+                                      const char* target_name,
+                                      const mimicry_similarity* model_to_world,
+                                      const mimicry_frame* frames, size_t count) {
+  return guarded([&] {
+    require(strokes, "strokes");
+    if (count > 0) require(frames, "frames");
+    stroke::Stroke s;
+    s.id = text(id, "id");
+    s.target = text(target_name, "target_name");
+    s.model_to_world = to_similarity(model_to_world);
+    for (size_t i = 0; i < count; ++i) s.frames.push_back(to_frame(frames[i]));
+    stroke::require_usable(s);
+    strokes->strokes.push_back(std::move(s));
+  });
+}
+
+mimicry_status mimicry_strokes_write(const mimicry_strokes* strokes, mimicry_bytes** out) {
+  return made(out, [&] {
+    require(strokes, "strokes");
+    return mimicry_bytes{io::write_strokes(strokes->strokes)};
+  });
+}
+
+size_t mimicry_strokes_count(const mimicry_strokes* strokes) {
+  return strokes ? strokes->strokes.size() : 0;
+}
+const char* mimicry_strokes_id(const mimicry_strokes* strokes, size_t number) {
+  return number < mimicry_strokes_count(strokes) ? strokes->strokes[number].id.c_str() : nullptr;
+}
+const char* mimicry_strokes_target(const mimicry_strokes* strokes, size_t number) {
+  return number < mimicry_strokes_count(strokes) ? strokes->strokes[number].target.c_str()
+                                                 : nullptr;
+}
+size_t mimicry_strokes_frame_count(const mimicry_strokes* strokes, size_t number) {
+  return number < mimicry_strokes_count(strokes) ? strokes->strokes[number].frames.size() : 0;
+}
+
+mimicry_status mimicry_strokes_placement(const mimicry_strokes* strokes, size_t number,
+                                         mimicry_similarity* out) {
+  return guarded([&] {
+    require(strokes, "strokes");
+    require(out, "out");
+    *out = from_similarity(strokes->at(number).model_to_world);
+  });
+}
+
+mimicry_status mimicry_strokes_frames(const mimicry_strokes* strokes, size_t number,
+                                      mimicry_frame* frames) {
+  return guarded([&] {
+    require(strokes, "strokes");
+    const stroke::Stroke& s = strokes->at(number);
+    if (!s.frames.empty()) require(frames, "frames");
+    for (size_t i = 0; i < s.frames.size(); ++i) frames[i] = from_frame(s.frames[i]);
+  });
+}
+
+void mimicry_strokes_destroy(mimicry_strokes* strokes) {
+  delete strokes;
+}

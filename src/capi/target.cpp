@@ -1,0 +1,102 @@
+#include <mimicry/io/embedding_file.h>
+
+#include "capi/handles.h"
+
+using namespace mimicry;
+using namespace mimicry::capi;
+
+namespace {
+
+// The file's name goes before messages of what does not know it.
+template <class Body>
+auto named(const std::string& name, Body&& body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    if (name.empty() || message.starts_with(name)) throw;
+    throw Error(error.kind(), name + ": " + message);
+  }
+}
+
+template <class Found>
+void put_point(mimicry_surface_point& out, const spatial::Target& target, const Found& found) {
+  out = {};
+  out.face = kNone;
+  if (!found) return;
+  put(out.position, found->position);
+  put(out.normal, target.normal(found->surface));
+  put(out.barycentric, found->surface.bary);
+  out.distance = found->distance;
+  out.face = found->surface.face;
+}
+
+}  // namespace
+
+mimicry_status mimicry_target_create(const mimicry_mesh* mesh, int32_t allow_nonmanifold,
+                                     mimicry_target** out) {
+  return made(out, [&] {
+    require(mesh, "mesh");
+    return named(mesh->name, [&] {
+      const spatial::TargetOptions options{allow_nonmanifold != 0};
+      return mimicry_target{std::make_shared<const spatial::Target>(mesh->mesh, options), nullptr};
+    });
+  });
+}
+
+void mimicry_target_destroy(mimicry_target* target) {
+  delete target;
+}
+
+const double* mimicry_target_vertex_normals(const mimicry_target* target) {
+  return target ? target->target->vertex_normals()[0].data() : nullptr;
+}
+double mimicry_target_diagonal(const mimicry_target* target) {
+  return target ? target->target->diagonal() : 0.0;
+}
+
+mimicry_status mimicry_target_closest_point(const mimicry_target* target, const double y[3],
+                                            double upper_bound, int32_t hint,
+                                            mimicry_surface_point* out) {
+  return guarded([&] {
+    require(target, "target");
+    require(y, "y");
+    require(out, "out");
+    const auto found = target->target->closest_point(vec3(y), upper_bound, hint);
+    put_point(*out, *target->target, found);
+  });
+}
+
+mimicry_status mimicry_target_first_hit(const mimicry_target* target, const double origin[3],
+                                        const double direction[3], mimicry_surface_point* out) {
+  return guarded([&] {
+    require(target, "target");
+    require(origin, "origin");
+    require(direction, "direction");
+    require(out, "out");
+    const auto found = target->target->first_hit(vec3(origin), vec3(direction));
+    put_point(*out, *target->target, found);
+  });
+}
+
+mimicry_status mimicry_target_with_embedding(const mimicry_target* target, const void* data,
+                                             size_t size, const char* name, mimicry_target** out) {
+  return made(out, [&] {
+    require(target, "target");
+    const std::string file(text(name, "name"));
+    return named(file, [&] {
+      // The projector refers to the target: both are kept together.
+      struct Pair {
+        std::shared_ptr<const spatial::Target> target;
+        embedding::SmoothProjector projector;
+      };
+      const std::shared_ptr<Pair> pair(new Pair{
+          target->target, {io::read_embedding(content(data, size), file), *target->target}});
+      return mimicry_target{target->target, {pair, &pair->projector}};
+    });
+  });
+}
+
+int32_t mimicry_target_has_embedding(const mimicry_target* target) {
+  return target && target->projector;
+}

@@ -1,0 +1,349 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mimicry/io/curves.h>
+#include <mimicry/mesh/shapes.h>
+#include <mimicry/mimicry.h>
+#include <mimicry/session/stroke_session.h>
+
+#include "support/allocations.h"
+
+extern "C" int draw_in_c(void);
+
+namespace {
+
+using testing::HasSubstr;
+
+template <auto destroy>
+struct Destroy {
+  template <class T>
+  void operator()(T* object) const {
+    destroy(object);
+  }
+};
+using Mesh = std::unique_ptr<mimicry_mesh, Destroy<mimicry_mesh_destroy>>;
+using Target = std::unique_ptr<mimicry_target, Destroy<mimicry_target_destroy>>;
+using Session = std::unique_ptr<mimicry_session, Destroy<mimicry_session_destroy>>;
+using Curve = std::unique_ptr<mimicry_curve, Destroy<mimicry_curve_destroy>>;
+using Bytes = std::unique_ptr<mimicry_bytes, Destroy<mimicry_bytes_destroy>>;
+using Strokes = std::unique_ptr<mimicry_strokes, Destroy<mimicry_strokes_destroy>>;
+using List = std::unique_ptr<mimicry_curve_list, Destroy<mimicry_curve_list_destroy>>;
+
+// The object that a call makes; the call must succeed.
+template <class Handle, class Function, class... Arguments>
+Handle make(Function function, Arguments... arguments) {
+  typename Handle::pointer out = nullptr;
+  EXPECT_EQ(function(arguments..., &out), MIMICRY_OK) << mimicry_last_error();
+  return Handle(out);
+}
+
+Target target_of(const char* shape, int resolution = 0) {
+  const auto mesh = make<Mesh>(mimicry_mesh_shape, shape, resolution);
+  return make<Target>(mimicry_target_create, mesh.get(), 0);
+}
+
+const mimicry_similarity kPlaced{{0, 0, 0, 1}, {0.1, 0.2, -0.3}, 0.5};
+
+std::vector<mimicry_frame> wave(int count) {
+  std::vector<mimicry_frame> frames(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    mimicry_frame& f = frames[static_cast<std::size_t>(i)];
+    f = {};
+    f.time_s = i / 90.0;
+    f.head_position[2] = 1.0;
+    f.head_orientation[3] = f.controller_orientation[3] = 1.0;
+    f.controller_position[0] = 0.1 + 0.002 * i - 0.1;
+    f.controller_position[1] = 0.2 + 0.05 * std::sin(0.1 * i);
+    f.controller_position[2] = 0.3;
+    f.trigger = 1.0;
+    f.pressure = i % 2 == 0 ? -1.0 : 0.5;
+  }
+  return frames;
+}
+
+mimicry::stroke::Stroke stroke_of(const std::vector<mimicry_frame>& frames) {
+  mimicry::stroke::Stroke s;
+  s.model_to_world = {mimicry::Quat::Identity(), {0.1, 0.2, -0.3}, 0.5};
+  for (const mimicry_frame& f : frames) {
+    mimicry::stroke::Frame frame;
+    frame.time_s = f.time_s;
+    frame.head.position = mimicry::Vec3(f.head_position);
+    frame.controller.position = mimicry::Vec3(f.controller_position);
+    s.frames.push_back(frame);
+  }
+  return s;
+}
+
+std::string text(const Bytes& bytes) {
+  return {reinterpret_cast<const char*>(mimicry_bytes_data(bytes.get())),
+          mimicry_bytes_size(bytes.get())};
+}
+
+Bytes write(const mimicry_target* target, std::vector<const mimicry_curve*> curves,
+            mimicry_curve_format format) {
+  return make<Bytes>(mimicry_curves_write, target, "shape", curves.data(), curves.size(), format,
+                     static_cast<const uint8_t*>(nullptr), 0.01);
+}
+
+TEST(CApi, ACProgramDraws) {
+  EXPECT_EQ(draw_in_c(), 0);
+}
+
+TEST(CApi, CurvesEqualTheLibrarysBitForBit) {
+  const Target target = target_of("hand");
+  const auto frames = wave(120);
+  const mimicry::spatial::Target native(mimicry::make_shape("hand"));
+  for (int i = 0; i < mimicry_technique_count(); ++i) {
+    const mimicry_technique_info& info = *mimicry_technique(i);
+    if (info.needs_bake) continue;
+    const auto session = make<Session>(mimicry_session_create, target.get(), info.name);
+    const auto curve =
+        make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+    const auto expected = mimicry::session::project(
+        {&native}, mimicry::technique::find_technique(info.name), stroke_of(frames));
+    ASSERT_EQ(mimicry_curve_point_count(curve.get()), expected.points.size()) << info.name;
+    for (std::size_t k = 0; k < expected.points.size(); ++k) {
+      mimicry_curve_point p;
+      ASSERT_EQ(mimicry_curve_point_at(curve.get(), k, &p), MIMICRY_OK);
+      EXPECT_EQ(p.face, expected.points[k].surface.face);
+      EXPECT_EQ(mimicry::Vec3(p.position), expected.points[k].position) << info.name << " " << k;
+    }
+    EXPECT_EQ(mimicry_curve_length(curve.get()), mimicry::curve::length(expected));
+    EXPECT_EQ(mimicry_curve_ink_count(curve.get()), mimicry_session_ink_count(session.get()));
+  }
+}
+
+TEST(CApi, InkIsThePolylines) {
+  const Target target = target_of("two-spheres");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "spraycan");
+  ASSERT_EQ(mimicry_session_set_split_at_misses(session.get(), 1), MIMICRY_OK);
+  auto frames = wave(300);
+  for (auto& f : frames) f.controller_position[0] -= 0.3;
+  const auto curve =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  const mimicry::spatial::Target native(mimicry::make_shape("two-spheres"));
+  mimicry::session::SessionOptions options;
+  options.misses = mimicry::session::MissPolicy::split;
+  const auto expected = mimicry::curve::polylines(
+      mimicry::session::project({&native}, mimicry::technique::find_technique("spraycan"),
+                                stroke_of(frames), options),
+      native.mesh());
+  ASSERT_GE(expected.size(), 2u) << "the stroke leaves the target once at least";
+  const mimicry_ink* ink = mimicry_curve_ink(curve.get());
+  for (const auto& part : expected)
+    for (std::size_t i = 0; i < part.size(); ++i, ++ink) {
+      EXPECT_EQ(ink->starts, i == 0);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(ink->position[k], static_cast<float>(part[i][k]));
+    }
+  EXPECT_EQ(ink, mimicry_curve_ink(curve.get()) + mimicry_curve_ink_count(curve.get()));
+}
+
+TEST(CApi, AFrameAllocatesNothing) {
+  const Target target = target_of("sphere");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "mimicry-live");
+  ASSERT_EQ(mimicry_session_begin(session.get(), &kPlaced), MIMICRY_OK);
+  const auto frames = wave(200);
+  const long before = mimicry::test::allocation_count();
+  for (const mimicry_frame& f : frames) mimicry_session_add(session.get(), &f, nullptr);
+  EXPECT_EQ(mimicry::test::allocation_count(), before);
+  EXPECT_GT(mimicry_session_ink_count(session.get()), 100u);
+}
+
+TEST(CApi, EditsLeaveTheCurveAndMakeAnother) {
+  const Target target = target_of("sphere");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "snap");
+  const auto frames = wave(60);
+  const auto curve =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  const double length = mimicry_curve_length(curve.get());
+  const auto few = make<Curve>(mimicry_curve_resample, curve.get(), std::size_t{10});
+  EXPECT_EQ(mimicry_curve_point_count(few.get()), 10u);
+  EXPECT_NEAR(mimicry_curve_length(few.get()), length, 0.1 * length);
+  mimicry_curve_point first, last;
+  ASSERT_EQ(mimicry_curve_point_at(few.get(), 0, &first), MIMICRY_OK);
+  ASSERT_EQ(mimicry_curve_point_at(few.get(), 9, &last), MIMICRY_OK);
+  EXPECT_EQ(first.frame, 0);
+  EXPECT_EQ(last.frame, 59);
+  EXPECT_DOUBLE_EQ(last.time_s, 59 / 90.0);
+  const auto head = make<Curve>(mimicry_curve_slice, curve.get(), std::size_t{0}, std::size_t{21});
+  const auto tail = make<Curve>(mimicry_curve_slice, curve.get(), std::size_t{20}, std::size_t{60});
+  EXPECT_NEAR(mimicry_curve_length(head.get()) + mimicry_curve_length(tail.get()), length, 1e-12);
+  EXPECT_EQ(mimicry_curve_ink_count(head.get()) + mimicry_curve_ink_count(tail.get()),
+            mimicry_curve_ink_count(curve.get()) + 1);
+  const auto closed = make<Curve>(mimicry_curve_close, curve.get());
+  EXPECT_TRUE(mimicry_curve_is_closed(closed.get()));
+  EXPECT_FALSE(mimicry_curve_is_closed(curve.get()));
+  const auto smooth = make<Curve>(mimicry_curve_smooth, curve.get(), 0.5, 10);
+  EXPECT_LT(mimicry_curve_length(smooth.get()), length);
+  const auto simple = make<Curve>(mimicry_curve_simplify, curve.get(), 0.01);
+  EXPECT_LT(mimicry_curve_point_count(simple.get()), 60u);
+  EXPECT_EQ(mimicry_curve_length(curve.get()), length);
+}
+
+TEST(CApi, FilesComeBack) {
+  const Target target = target_of("cube");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "mimicry-live");
+  const auto frames = wave(50);
+  auto curve =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  curve = make<Curve>(mimicry_curve_with_stroke, curve.get(), "s1");
+  const Bytes file = write(target.get(), {curve.get(), curve.get()}, MIMICRY_CURVES_JSON);
+  const auto list = make<List>(mimicry_curves_read, target.get(), mimicry_bytes_data(file.get()),
+                               mimicry_bytes_size(file.get()), "a.json");
+  ASSERT_EQ(mimicry_curve_list_count(list.get()), 2u);
+  const auto again = make<Curve>(mimicry_curve_list_get, list.get(), std::size_t{1});
+  EXPECT_STREQ(mimicry_curve_stroke(again.get()), "s1");
+  EXPECT_STREQ(mimicry_curve_technique(again.get()), "mimicry-live");
+  EXPECT_EQ(text(write(target.get(), {curve.get(), again.get()}, MIMICRY_CURVES_JSON)), text(file));
+  for (const auto format :
+       {MIMICRY_CURVES_OBJ, MIMICRY_CURVES_CSV, MIMICRY_CURVES_PLY, MIMICRY_CURVES_GLB})
+    EXPECT_GT(text(write(target.get(), {curve.get()}, format)).size(), 100u);
+
+  const auto strokes = make<Strokes>(mimicry_strokes_create);
+  ASSERT_EQ(
+      mimicry_strokes_append(strokes.get(), "s1", "cube", &kPlaced, frames.data(), frames.size()),
+      MIMICRY_OK);
+  const auto bytes = make<Bytes>(mimicry_strokes_write, strokes.get());
+  const auto read = make<Strokes>(mimicry_strokes_read, mimicry_bytes_data(bytes.get()),
+                                  mimicry_bytes_size(bytes.get()), "s.json");
+  ASSERT_EQ(mimicry_strokes_count(read.get()), 1u);
+  EXPECT_STREQ(mimicry_strokes_id(read.get(), 0), "s1");
+  EXPECT_STREQ(mimicry_strokes_target(read.get(), 0), "cube");
+  EXPECT_EQ(mimicry_strokes_id(read.get(), 1), nullptr);
+  ASSERT_EQ(mimicry_strokes_frame_count(read.get(), 0), frames.size());
+  std::vector<mimicry_frame> back(frames.size());
+  ASSERT_EQ(mimicry_strokes_frames(read.get(), 0, back.data()), MIMICRY_OK);
+  EXPECT_EQ(std::memcmp(back.data(), frames.data(), frames.size() * sizeof(mimicry_frame)), 0);
+  mimicry_similarity placed;
+  ASSERT_EQ(mimicry_strokes_placement(read.get(), 0, &placed), MIMICRY_OK);
+  EXPECT_EQ(std::memcmp(&placed, &kPlaced, sizeof placed), 0);
+}
+
+TEST(CApi, BakesAndDrawsWithIt) {
+  const auto mesh = make<Mesh>(mimicry_mesh_shape, "sphere", 6);
+  const auto target = make<Target>(mimicry_target_create, mesh.get(), 0);
+  mimicry_session* none = nullptr;
+  EXPECT_EQ(mimicry_session_create(target.get(), "mimicry", &none), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("needs the target's bake"));
+  EXPECT_EQ(none, nullptr);
+
+  mimicry_bake_options options = mimicry_default_bake_options();
+  options.samples = 60;
+  int calls = 0;
+  const mimicry_progress count = [](void* user, const char* stage, double fraction) -> int32_t {
+    EXPECT_GT(std::strlen(stage), 0u);
+    EXPECT_GE(fraction, 0.0);
+    EXPECT_LE(fraction, 1.0);
+    return ++*static_cast<int*>(user);
+  };
+  const auto file = make<Bytes>(mimicry_bake, mesh.get(), &options, count, &calls);
+  EXPECT_GT(calls, 3);
+  mimicry_bytes* stopped = nullptr;
+  EXPECT_EQ(mimicry_bake(
+                mesh.get(), &options, [](void*, const char*, double) -> int32_t { return 0; },
+                nullptr, &stopped),
+            MIMICRY_CANCELLED);
+  const auto baked =
+      make<Target>(mimicry_target_with_embedding, target.get(), mimicry_bytes_data(file.get()),
+                   mimicry_bytes_size(file.get()), "sphere.mimicry");
+  EXPECT_TRUE(mimicry_target_has_embedding(baked.get()));
+  EXPECT_FALSE(mimicry_target_has_embedding(target.get()));
+  const auto session = make<Session>(mimicry_session_create, baked.get(), "mimicry");
+  const auto frames = wave(40);
+  const auto curve =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  EXPECT_EQ(mimicry_curve_point_count(curve.get()), 40u);
+
+  // Of another mesh.
+  const Target other = target_of("cube");
+  mimicry_target* refused = nullptr;
+  EXPECT_EQ(
+      mimicry_target_with_embedding(other.get(), mimicry_bytes_data(file.get()),
+                                    mimicry_bytes_size(file.get()), "sphere.mimicry", &refused),
+      MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("sphere.mimicry"));
+}
+
+TEST(CApi, QueriesTellNothingFromAnError) {
+  const Target target = target_of("sphere");
+  mimicry_surface_point p;
+  const double far[3] = {0, 0, 3}, away[3] = {0, 0, 1}, to[3] = {0, 0, -2};
+  ASSERT_EQ(mimicry_target_first_hit(target.get(), far, to, &p), MIMICRY_OK);
+  EXPECT_GE(p.face, 0);
+  EXPECT_NEAR(p.distance, 2.0, 1e-2);
+  EXPECT_NEAR(p.normal[2], 1.0, 1e-2);
+  ASSERT_EQ(mimicry_target_first_hit(target.get(), far, away, &p), MIMICRY_OK);
+  EXPECT_EQ(p.face, -1);
+  const double infinity = std::numeric_limits<double>::infinity();
+  ASSERT_EQ(mimicry_target_closest_point(target.get(), far, infinity, -1, &p), MIMICRY_OK);
+  EXPECT_NEAR(p.distance, 2.0, 1e-2);
+  ASSERT_EQ(mimicry_target_closest_point(target.get(), far, 1.0, 7, &p), MIMICRY_OK);
+  EXPECT_EQ(p.face, -1);
+}
+
+TEST(CApi, ReportsAMesh) {
+  const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t faces[] = {0, 1, 2};
+  const auto mesh =
+      make<Mesh>(mimicry_mesh_create, positions, std::size_t{3}, faces, std::size_t{1}, "corner");
+  mimicry_mesh_report report;
+  ASSERT_EQ(mimicry_mesh_validate(mesh.get(), &report), MIMICRY_OK);
+  EXPECT_DOUBLE_EQ(report.area, 0.5);
+  EXPECT_EQ(report.boundary_loops, 1);
+  EXPECT_EQ(report.closed, 0);
+  EXPECT_EQ(report.manifold, 1);
+  EXPECT_TRUE(std::isnan(report.volume));
+  EXPECT_DOUBLE_EQ(report.box_max[1], 1.0);
+  EXPECT_NEAR(mimicry_mesh_metres_per_unit(mesh.get()), 0.6 / std::sqrt(2.0), 1e-12);
+}
+
+TEST(CApi, BadInputIsAStatusAndASentence) {
+  mimicry_mesh* mesh = nullptr;
+  EXPECT_EQ(mimicry_mesh_read("hello", 5, "notes.txt", &mesh), MIMICRY_UNSUPPORTED);
+  EXPECT_EQ(mimicry_mesh_read("v 0 0 x", 7, "bad.obj", &mesh), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("bad.obj"));
+  EXPECT_EQ(mimicry_mesh_read(nullptr, 9, "a.obj", &mesh), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(mimicry_mesh_read("", 0, nullptr, &mesh), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(mimicry_mesh_read("", 0, "a.obj", nullptr), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(mimicry_mesh_shape("teapot", 0, &mesh), MIMICRY_INVALID_INPUT);
+  const int32_t beyond[] = {0, 1, 2};
+  EXPECT_EQ(mimicry_mesh_create(nullptr, 0, beyond, 1, nullptr, &mesh), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(mesh, nullptr);
+  mimicry_mesh_destroy(nullptr);
+  EXPECT_EQ(mimicry_mesh_vertex_count(nullptr), 0u);
+
+  const Target target = target_of("sphere", 4);
+  mimicry_session* session = nullptr;
+  EXPECT_EQ(mimicry_session_create(target.get(), "magic", &session), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("spraycan"));
+  const auto drawing = make<Session>(mimicry_session_create, target.get(), "spraycan");
+  const double value = 1.0;
+  EXPECT_EQ(mimicry_session_set_option(drawing.get(), "colour", &value, 1), MIMICRY_INVALID_INPUT);
+  mimicry_similarity squashed = kPlaced;
+  squashed.scale = 0.0;
+  EXPECT_EQ(mimicry_session_begin(drawing.get(), &squashed), MIMICRY_INVALID_INPUT);
+  mimicry_frame frame = wave(1)[0];
+  mimicry_frame_status status = MIMICRY_FRAME_INKED;
+  EXPECT_EQ(mimicry_session_add(drawing.get(), &frame, &status), MIMICRY_OK);
+  EXPECT_EQ(status, MIMICRY_FRAME_REJECTED) << "no stroke is open";
+  EXPECT_EQ(mimicry_technique(-1), nullptr);
+  EXPECT_EQ(mimicry_technique(1000), nullptr);
+  EXPECT_EQ(mimicry_shape(1000), nullptr);
+}
+
+TEST(CApi, EachThreadHasItsOwnMessage) {
+  mimicry_mesh* mesh = nullptr;
+  ASSERT_NE(mimicry_mesh_shape("teapot", 0, &mesh), MIMICRY_OK);
+  std::thread([] { EXPECT_STREQ(mimicry_last_error(), ""); }).join();
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("teapot"));
+}
+
+}  // namespace

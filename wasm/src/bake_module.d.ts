@@ -1,0 +1,5 @@
+import type { Factory } from './module.js';
+
+/** Emscripten's glue of the bake; made by `wasm/build`. */
+declare const factory: Factory;
+export default factory;

@@ -1,0 +1,90 @@
+import factory from './core.js';
+import { meshArrays, meshReport, shapeList, withMesh, type MeshArrays, type MeshReport, type ShapeInfo } from './mesh.js';
+import { instantiate, MimicryError, type Module, type WasmSource } from './module.js';
+import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
+import { Target } from './target.js';
+import { techniqueList, type TechniqueInfo } from './technique.js';
+
+export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
+export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
+export type { MeshArrays, MeshReport, ShapeInfo } from './mesh.js';
+export { MimicryError, type Status, type WasmSource } from './module.js';
+export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, Session, type SessionOptions } from './session.js';
+export type { RecordedStroke } from './strokes.js';
+export { Target, type CurveFormat, type SurfaceHit } from './target.js';
+export type { TechniqueInfo, TechniqueOption } from './technique.js';
+
+export interface MimicryOptions {
+  /** The core's WebAssembly file; the package's own where nothing is given. */
+  wasm?: WasmSource;
+}
+
+/**
+ * The core. `await mimicry.ready` before anything else. Targets, sessions and curves lie in the core's
+ * memory: give each back with `dispose()`, in any order.
+ *
+ * All methods throw `MimicryError`, whose message is a sentence for people.
+ */
+export class Mimicry {
+  /** Fulfilled when the core can be used; rejected where it cannot be loaded. */
+  readonly ready: Promise<this>;
+  private module: Module | undefined;
+  private disposed = false;
+  private lists: { techniques: readonly TechniqueInfo[]; shapes: readonly ShapeInfo[] } | undefined;
+
+  constructor(options: MimicryOptions = {}) {
+    this.ready = instantiate(factory, options.wasm ?? new URL('./core.wasm', import.meta.url)).then((m) => {
+      if (!this.disposed) this.module = m;
+      return this;
+    });
+  }
+
+  private get m(): Module {
+    if (this.module) return this.module;
+    throw new MimicryError('disposed', this.disposed ? 'mimicry was used after dispose()' : 'mimicry is not loaded yet; await mimicry.ready first');
+  }
+
+  private get listed() {
+    this.lists ??= { techniques: techniqueList(this.m), shapes: shapeList(this.m) };
+    return this.lists;
+  }
+
+  get techniques(): readonly TechniqueInfo[] { return this.listed.techniques; }
+  get shapes(): readonly ShapeInfo[] { return this.listed.shapes; }
+
+  /** A built-in shape; resolution 0 for its default. */
+  shape(name: string, resolution = 0): MeshArrays {
+    const m = this.m;
+    return meshArrays(m, (args, out) => m._mimicry_mesh_shape(args.put(name), resolution, out));
+  }
+
+  /** A file's content; the name's ending tells the format (.obj .ply .stl .off .glb .gltf). */
+  readMesh(bytes: Uint8Array, name: string): MeshArrays {
+    const m = this.m;
+    return meshArrays(m, (args, out) => m._mimicry_mesh_read(args.put(bytes), bytes.length, args.put(name), out));
+  }
+
+  /** What a mesh is and what is odd about it. */
+  validate(mesh: MeshArrays): MeshReport {
+    return withMesh(this.m, mesh, '', (pointer) => meshReport(this.m, pointer));
+  }
+
+  /** name: stands in messages and in files. */
+  createTarget(mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: { allowNonmanifold?: boolean } = {}): Target {
+    return Target.create(this.m, mesh, name, options.allowNonmanifold ?? false);
+  }
+
+  /** The strokes of a mimicry-strokes file. */
+  readStrokes(bytes: Uint8Array, name: string): RecordedStroke[] { return readStrokes(this.m, bytes, name); }
+  writeStrokes(strokes: readonly RecordedStroke[]): Uint8Array<ArrayBuffer> { return writeStrokes(this.m, strokes); }
+
+  /** The core's memory in use, bytes. */
+  get memoryBytes(): number { return this.m.HEAPU8.length; }
+
+  /** Lets go of the core and of all memory; nothing that came from it may be used afterwards. */
+  dispose(): void {
+    this.disposed = true;
+    this.module = undefined;
+    this.lists = undefined;
+  }
+}

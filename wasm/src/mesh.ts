@@ -1,0 +1,101 @@
+import { Arguments, calling, check, made, textAt, type Module } from './module.js';
+import type { Pointer } from './exports.js';
+
+/** Triangles as plain arrays, that can be transferred from thread to thread. */
+export interface MeshArrays {
+  /** 3 a vertex, the file's own coordinates and units. */
+  positions: Float64Array<ArrayBuffer>;
+  /** 3 vertex numbers a face, counter-clockwise seen from outside. */
+  faces: Int32Array<ArrayBuffer>;
+  /** The size at which it is suggested to be shown: a shape's own, or 0.6 m across the bounding box. */
+  metresPerUnit: number;
+}
+
+export interface MeshReport {
+  boxMin: [number, number, number];
+  boxMax: [number, number, number];
+  diagonal: number;
+  area: number;
+  /** Enclosed; NaN where the mesh is not closed and consistently oriented. */
+  volume: number;
+  vertices: number;
+  edges: number;
+  faces: number;
+  components: number;
+  boundaryLoops: number;
+  /** Sum of the components'; -1 where one has none. */
+  genus: number;
+  manifold: boolean;
+  closed: boolean;
+  invalidVertices: number;
+  nonmanifoldEdges: number;
+  nonmanifoldVertices: number;
+  inconsistentEdges: number;
+  degenerateFaces: number;
+  duplicateFaces: number;
+}
+
+export interface ShapeInfo {
+  name: string;
+  description: string;
+  defaultResolution: number;
+  leastResolution: number;
+  mostResolution: number;
+}
+
+export function shapeList(m: Module): ShapeInfo[] {
+  return Array.from({ length: m._mimicry_shape_count() }, (_, i) => {
+    const at = m._mimicry_shape(i) >> 2;
+    return {
+      name: textAt(m, m.HEAPU32[at]!),
+      description: textAt(m, m.HEAPU32[at + 1]!),
+      defaultResolution: m.HEAP32[at + 2]!,
+      leastResolution: m.HEAP32[at + 3]!,
+      mostResolution: m.HEAP32[at + 4]!,
+    };
+  });
+}
+
+/** The mesh that a call makes, as arrays. */
+export function meshArrays(m: Module, call: (args: Arguments, out: Pointer) => number): MeshArrays {
+  const mesh = made(m, call);
+  try {
+    const positions = m._mimicry_mesh_positions(mesh) >> 3;
+    const faces = m._mimicry_mesh_faces(mesh) >> 2;
+    return {
+      positions: m.HEAPF64.slice(positions, positions + 3 * m._mimicry_mesh_vertex_count(mesh)),
+      faces: m.HEAP32.slice(faces, faces + 3 * m._mimicry_mesh_face_count(mesh)),
+      metresPerUnit: m._mimicry_mesh_metres_per_unit(mesh),
+    };
+  } finally {
+    m._mimicry_mesh_destroy(mesh);
+  }
+}
+
+/** Runs a body with the mesh in the module's memory. */
+export function withMesh<T>(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, body: (pointer: Pointer) => T): T {
+  const pointer = made(m, (args, out) =>
+    m._mimicry_mesh_create(args.put(mesh.positions), mesh.positions.length / 3, args.put(mesh.faces), mesh.faces.length / 3, args.put(name), out));
+  try {
+    return body(pointer);
+  } finally {
+    m._mimicry_mesh_destroy(pointer);
+  }
+}
+
+const kReportBytes = 9 * 8 + 14 * 4;
+
+export function meshReport(m: Module, mesh: Pointer): MeshReport {
+  return calling(m, (args) => {
+    const at = args.room(kReportBytes);
+    check(m, m._mimicry_mesh_validate(mesh, at));
+    const d = (i: number) => m.HEAPF64[(at >> 3) + i]!;
+    const n = (i: number) => m.HEAP32[(at >> 2) + 18 + i]!;
+    return {
+      boxMin: [d(0), d(1), d(2)], boxMax: [d(3), d(4), d(5)], diagonal: d(6), area: d(7), volume: d(8),
+      vertices: n(0), edges: n(1), faces: n(2), components: n(3), boundaryLoops: n(4), genus: n(5),
+      manifold: n(6) !== 0, closed: n(7) !== 0, invalidVertices: n(8), nonmanifoldEdges: n(9),
+      nonmanifoldVertices: n(10), inconsistentEdges: n(11), degenerateFaces: n(12), duplicateFaces: n(13),
+    };
+  });
+}

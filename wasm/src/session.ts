@@ -1,0 +1,104 @@
+import { Curve } from './curve.js';
+import type { Pointer } from './exports.js';
+import { InkView, type Ink } from './ink.js';
+import { calling, check, Handle, made, MimicryError, type Module } from './module.js';
+
+/**
+ * Numbers of a frame: time in seconds, head position (3) and orientation (4: x, y, z, w), controller
+ * position (3, the pen's tip) and orientation (4), trigger (0 to 1), pressure (0 to 1, below 0 for none).
+ * World: right-handed, y up, metres; devices point along their -z axis.
+ */
+export const kFrameSize = 17;
+/** Numbers of a similarity: rotation (4: x, y, z, w), translation (3), scale. */
+export const kSimilaritySize = 8;
+
+/** What became of a frame. */
+export const kInked = 0;
+export const kMissed = 1;
+export const kStill = 2;
+export const kRejected = 3;
+
+export interface SessionOptions {
+  /** The technique's options by name. */
+  options?: Readonly<Record<string, number | readonly number[]>>;
+  /** A frame without a point breaks the curve; otherwise it is bridged, as in the paper. */
+  splitAtMisses?: boolean;
+  /** Frames whose pen moved less are passed over. */
+  minimumMotion_m?: number;
+}
+
+/** Draws strokes on one target with one technique. Keeps its target alive. */
+export class Session extends Handle {
+  private readonly view = new InkView();
+  private readonly room: Pointer; // a frame, then its status
+
+  constructor(m: Module, pointer: Pointer, readonly technique: string, options: SessionOptions) {
+    super(m, pointer);
+    this.room = m._malloc(8 * kFrameSize + 8);
+    try {
+      for (const [name, value] of Object.entries(options.options ?? {})) this.setOption(name, typeof value === 'number' ? [value] : value);
+      if (options.splitAtMisses !== undefined) this.setSplitAtMisses(options.splitAtMisses);
+      if (options.minimumMotion_m !== undefined) this.setMinimumMotion(options.minimumMotion_m);
+    } catch (error) {
+      this.dispose();
+      throw error;
+    }
+  }
+
+  protected override destroy(pointer: Pointer): void {
+    this.m._free(this.room);
+    this.m._mimicry_session_destroy(pointer);
+  }
+
+  /** From the next stroke on, as all settings. */
+  setOption(name: string, values: readonly number[]): void {
+    calling(this.m, (args) =>
+      check(this.m, this.m._mimicry_session_set_option(this.at, args.put(name), args.put(Float64Array.from(values)), values.length)));
+  }
+  setSplitAtMisses(split: boolean): void {
+    check(this.m, this.m._mimicry_session_set_split_at_misses(this.at, split ? 1 : 0));
+  }
+  setMinimumMotion(metres: number): void {
+    check(this.m, this.m._mimicry_session_set_minimum_motion(this.at, metres));
+  }
+
+  /** Starts a stroke; the last one's ink is forgotten. modelToWorld: `kSimilaritySize` numbers. */
+  begin(modelToWorld: Float64Array): void {
+    requireLength(modelToWorld, kSimilaritySize, 'a similarity');
+    calling(this.m, (args) => check(this.m, this.m._mimicry_session_begin(this.at, args.put(modelToWorld))));
+  }
+
+  /** frame: `kFrameSize` numbers. Makes no objects. What became of it: `kInked` and so on. */
+  add(frame: Float64Array): number {
+    requireLength(frame, kFrameSize, 'a frame');
+    this.m.HEAPF64.set(frame, this.room >> 3);
+    const status = this.room + 8 * kFrameSize;
+    check(this.m, this.m._mimicry_session_add(this.at, this.room, status));
+    return this.m.HEAP32[status >> 2]!;
+  }
+
+  end(): void {
+    check(this.m, this.m._mimicry_session_end(this.at));
+  }
+
+  /** All ink of the stroke so far; new ink comes at its end. Always the same object; its arrays are valid until the next call of anything here. */
+  get ink(): Ink {
+    return this.view.look(this.m, this.m._mimicry_session_ink(this.at), this.m._mimicry_session_ink_count(this.at));
+  }
+
+  /** The curve so far, copied. */
+  curve(): Curve {
+    return new Curve(this.m, made(this.m, (_, out) => this.m._mimicry_session_curve(this.at, out)));
+  }
+
+  /** A whole recorded stroke at once; frames that cannot be used are an error here. frames: `kFrameSize` numbers each. */
+  project(modelToWorld: Float64Array, frames: Float64Array): Curve {
+    requireLength(modelToWorld, kSimilaritySize, 'a similarity');
+    return new Curve(this.m, made(this.m, (args, out) =>
+      this.m._mimicry_session_project(this.at, args.put(modelToWorld), args.put(frames), Math.floor(frames.length / kFrameSize), out)));
+  }
+}
+
+function requireLength(array: Float64Array, length: number, what: string): void {
+  if (array.length !== length) throw new MimicryError('invalid_input', `${what} takes ${length} numbers, not ${array.length}`);
+}

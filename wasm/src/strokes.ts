@@ -1,0 +1,48 @@
+import { calling, check, made, takeBytes, textAt, type Module } from './module.js';
+import { kFrameSize, kSimilaritySize } from './session.js';
+
+/** A recorded stroke: what the devices did, on one target. */
+export interface RecordedStroke {
+  id: string;
+  /** Name of the mesh that was drawn on. */
+  target: string;
+  /** `kSimilaritySize` numbers. */
+  modelToWorld: Float64Array;
+  /** `kFrameSize` numbers a frame. */
+  frames: Float64Array;
+}
+
+export function readStrokes(m: Module, bytes: Uint8Array, name: string): RecordedStroke[] {
+  const strokes = made(m, (args, out) => m._mimicry_strokes_read(args.put(bytes), bytes.length, args.put(name), out));
+  try {
+    return Array.from({ length: m._mimicry_strokes_count(strokes) }, (_, i) =>
+      calling(m, (args) => {
+        const count = m._mimicry_strokes_frame_count(strokes, i);
+        const placed = args.room(8 * kSimilaritySize);
+        const frames = args.room(8 * kFrameSize * count);
+        check(m, m._mimicry_strokes_placement(strokes, i, placed));
+        check(m, m._mimicry_strokes_frames(strokes, i, frames));
+        return {
+          id: textAt(m, m._mimicry_strokes_id(strokes, i)),
+          target: textAt(m, m._mimicry_strokes_target(strokes, i)),
+          modelToWorld: m.HEAPF64.slice(placed >> 3, (placed >> 3) + kSimilaritySize),
+          frames: m.HEAPF64.slice(frames >> 3, (frames >> 3) + kFrameSize * count),
+        };
+      }));
+  } finally {
+    m._mimicry_strokes_destroy(strokes);
+  }
+}
+
+export function writeStrokes(m: Module, list: readonly RecordedStroke[]): Uint8Array<ArrayBuffer> {
+  const strokes = made(m, (_, out) => m._mimicry_strokes_create(out));
+  try {
+    for (const s of list)
+      calling(m, (args) =>
+        check(m, m._mimicry_strokes_append(strokes, args.put(s.id), args.put(s.target), args.put(s.modelToWorld), args.put(s.frames),
+          Math.floor(s.frames.length / kFrameSize))));
+    return takeBytes(m, made(m, (_, out) => m._mimicry_strokes_write(strokes, out)));
+  } finally {
+    m._mimicry_strokes_destroy(strokes);
+  }
+}

@@ -1,0 +1,130 @@
+import { Curve } from './curve.js';
+import type { Pointer } from './exports.js';
+import { meshReport, withMesh, type MeshArrays, type MeshReport } from './mesh.js';
+import { check, Handle, made, takeBytes, type Module } from './module.js';
+import { Session, type SessionOptions } from './session.js';
+
+/** A point on a target, model space; one object that the target's next query writes over. */
+export interface SurfaceHit {
+  readonly position: Float64Array;
+  /** Unit, interpolated between the vertices. */
+  readonly normal: Float64Array;
+  readonly barycentric: Float64Array;
+  /** From the query; of a ray along its direction. */
+  distance: number;
+  face: number;
+}
+
+export type CurveFormat = 'json' | 'obj' | 'csv' | 'ply' | 'glb';
+const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb'];
+
+// A query's two vectors, then a mimicry_surface_point of ten doubles and two integers.
+const kQueryBytes = 6 * 8;
+const kPointBytes = 11 * 8;
+
+/** A mesh ready to be drawn on. */
+export class Target extends Handle {
+  private readonly room: Pointer;
+  private readonly hit = { position: new Float64Array(3), normal: new Float64Array(3), barycentric: new Float64Array(3), distance: 0, face: -1 };
+  private hint = -1;
+
+  /** @internal */
+  constructor(m: Module, pointer: Pointer, readonly name: string, readonly report: MeshReport, private readonly vertexCount: number) {
+    super(m, pointer);
+    this.room = m._malloc(kQueryBytes + kPointBytes);
+  }
+
+  /** @internal */
+  static create(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, allowNonmanifold: boolean): Target {
+    return withMesh(m, mesh, name, (pointer) => {
+      const target = made(m, (_, out) => m._mimicry_target_create(pointer, allowNonmanifold ? 1 : 0, out));
+      return new Target(m, target, name, meshReport(m, pointer), mesh.positions.length / 3);
+    });
+  }
+
+  protected override destroy(pointer: Pointer): void {
+    this.m._free(this.room);
+    this.m._mimicry_target_destroy(pointer);
+  }
+
+  get diagonal(): number { return this.m._mimicry_target_diagonal(this.at); }
+  get min(): readonly number[] { return this.report.boxMin; }
+  get max(): readonly number[] { return this.report.boxMax; }
+  get faceCount(): number { return this.report.faces; }
+  get hasEmbedding(): boolean { return this.m._mimicry_target_has_embedding(this.at) !== 0; }
+
+  /** Unit normals, 3 a vertex, for drawing the mesh. */
+  vertexNormals(): Float32Array {
+    const at = this.m._mimicry_target_vertex_normals(this.at) >> 3;
+    return Float32Array.from(this.m.HEAPF64.subarray(at, at + 3 * this.vertexCount));
+  }
+
+  /** The closest point of the surface; null where there is none within `most`. Makes no objects. */
+  closestPoint(x: number, y: number, z: number, most = Infinity): SurfaceHit | null {
+    const q = this.room >> 3;
+    const h = this.m.HEAPF64;
+    h[q] = x; h[q + 1] = y; h[q + 2] = z;
+    check(this.m, this.m._mimicry_target_closest_point(this.at, this.room, most, this.hint, this.room + kQueryBytes));
+    const found = this.found();
+    if (found) this.hint = found.face;
+    return found;
+  }
+
+  /** The first point on a ray; null where there is none. Makes no objects. */
+  firstHit(ox: number, oy: number, oz: number, dx: number, dy: number, dz: number): SurfaceHit | null {
+    const q = this.room >> 3;
+    const h = this.m.HEAPF64;
+    h[q] = ox; h[q + 1] = oy; h[q + 2] = oz;
+    h[q + 3] = dx; h[q + 4] = dy; h[q + 5] = dz;
+    check(this.m, this.m._mimicry_target_first_hit(this.at, this.room, this.room + 24, this.room + kQueryBytes));
+    return this.found();
+  }
+
+  private found(): SurfaceHit | null {
+    const at = this.room + kQueryBytes;
+    const d = at >> 3;
+    const h = this.m.HEAPF64;
+    const hit = this.hit;
+    hit.face = this.m.HEAP32[(at >> 2) + 20]!;
+    if (hit.face < 0) return null;
+    for (let k = 0; k < 3; k += 1) {
+      hit.position[k] = h[d + k]!;
+      hit.normal[k] = h[d + 3 + k]!;
+      hit.barycentric[k] = h[d + 6 + k]!;
+    }
+    hit.distance = h[d + 9]!;
+    return hit;
+  }
+
+  /** A new target: this one with its bake, the content of a `.mimicry` file that was made for the same mesh. */
+  withEmbedding(bytes: Uint8Array, name: string): Target {
+    const pointer = made(this.m, (args, out) =>
+      this.m._mimicry_target_with_embedding(this.at, args.put(bytes), bytes.length, args.put(name), out));
+    return new Target(this.m, pointer, this.name, this.report, this.vertexCount);
+  }
+
+  session(technique: string, options: SessionOptions = {}): Session {
+    const pointer = made(this.m, (args, out) => this.m._mimicry_session_create(this.at, args.put(technique), out));
+    return new Session(this.m, pointer, technique, options);
+  }
+
+  /** A file of curves on this target. colors: 3 a curve, sRGB (PLY and GLB). tubeRadius: model units (GLB). */
+  writeCurves(curves: readonly Curve[], format: CurveFormat, colors = new Uint8Array(3 * curves.length), tubeRadius = 0.003 * this.diagonal): Uint8Array<ArrayBuffer> {
+    const m = this.m;
+    return takeBytes(m, made(m, (args, out) =>
+      m._mimicry_curves_write(this.at, args.put(this.name), args.put(Int32Array.from(curves, (c) => c.at)), curves.length,
+        kFormats.indexOf(format), args.put(colors), tubeRadius, out)));
+  }
+
+  /** What `writeCurves` wrote as JSON, for the same mesh. */
+  readCurves(bytes: Uint8Array, name: string): Curve[] {
+    const m = this.m;
+    const list = made(m, (args, out) => m._mimicry_curves_read(this.at, args.put(bytes), bytes.length, args.put(name), out));
+    try {
+      return Array.from({ length: m._mimicry_curve_list_count(list) }, (_, i) =>
+        new Curve(m, made(m, (_args, out) => m._mimicry_curve_list_get(list, i, out))));
+    } finally {
+      m._mimicry_curve_list_destroy(list);
+    }
+  }
+}
