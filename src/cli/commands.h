@@ -24,6 +24,8 @@ void add_bake(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_geodesic(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
+void add_keypoints(CLI::App& app, int& status);
+void add_measure(CLI::App& app, int& status);
 void add_project(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
 void add_shapes(CLI::App& app, int& status);

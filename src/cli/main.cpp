@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
   add_geodesic(app, status);
   add_bake(app, status);
   add_compare(app, status);
+  add_keypoints(app, status);
+  add_measure(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {

@@ -8,7 +8,6 @@
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/targets_reader.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/intended_curves.h>
@@ -18,6 +17,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/target_curves.h"
 
 namespace mimicry::cli {
 namespace {
@@ -44,21 +44,14 @@ struct Task {
 };
 
 Task published_curves(const Arguments& args, const NamedMesh& named) {
-  const std::string file = std::filesystem::path(args.targets).filename().string();
-  const study::TargetSet set = io::read_targets(files::read_file(args.targets), file);
+  const study::TargetSet set = load_targets(args.targets);
   const std::string wanted =
       args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
-  const study::TargetShape* shape = set.find(wanted);
-  if (shape == nullptr) {
-    std::string names;
-    for (const auto& s : set.shapes) names += (names.empty() ? "" : ", ") + s.name;
-    throw Error(ErrorKind::invalid_input, file + ": has no shape '" + wanted + "', only " + names +
-                                              "; name one with --shape");
-  }
-  study::require_fits(*shape, named.mesh);
-  Task task{{}, shape->scale};
-  for (std::size_t i = 0; i < shape->curves.size(); ++i)
-    task.curves.push_back({wanted + "-" + std::to_string(i), false, shape->curves[i].points});
+  const study::TargetShape& shape = find_target_shape(set, wanted, args.targets);
+  study::require_fits(shape, named.mesh);
+  Task task{{}, shape.scale};
+  for (std::size_t i = 0; i < shape.curves.size(); ++i)
+    task.curves.push_back({wanted + "-" + std::to_string(i), false, shape.curves[i].points});
   return task;
 }
 

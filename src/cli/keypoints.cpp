@@ -1,0 +1,74 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/study/keypoints.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+#include "cli/target_curves.h"
+
+namespace mimicry::cli {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string targets;
+  std::string shape;
+  double scale = 0.0;
+  bool allow_nonmanifold = false;
+  bool json = false;
+};
+
+void run(const Arguments& args) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const study::TargetSet set = load_targets(args.targets);
+  const std::string wanted =
+      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
+  const study::TargetShape& shape = find_target_shape(set, wanted, args.targets);
+  study::require_fits(shape, named.mesh);
+  const double scale = args.scale > 0.0 ? args.scale : shape.scale;
+
+  nlohmann::ordered_json curves = nlohmann::ordered_json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const study::TargetCurve& curve : shape.curves) {
+    const std::vector<Index> found =
+        study::keypoints(target.mesh(), target.half_edges(), curve.points, scale);
+    curves.push_back({{"keypoints", found}});
+    std::string list;
+    for (const Index k : found) list += (list.empty() ? "" : " ") + std::to_string(k);
+    rows.push_back({std::to_string(rows.size()), std::to_string(curve.points.size()),
+                    std::to_string(found.size()), list});
+  }
+  if (args.json)
+    std::printf("%s\n", nlohmann::ordered_json{{"curves", curves}}.dump().c_str());
+  else
+    print_table({"curve", "points", "keypoints", "numbers of points"}, rows);
+}
+
+}  // namespace
+
+void add_keypoints(CLI::App& app, int&) {
+  auto* command =
+      app.add_subcommand("keypoints", "The keypoints of target curves: ends, bends, long sections");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_option("--targets", args->targets, "A file of target curves on the mesh")
+      ->required();
+  command->add_option("--shape", args->shape,
+                      "The mesh's name in --targets (default: the file's name)");
+  command->add_option("--scale", args->scale, "Metres per mesh unit (default: that in --targets)")
+      ->check(number_between(1e-12, 1e12));
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces");
+  command->add_flag("--json", args->json, "For programs");
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli
