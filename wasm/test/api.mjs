@@ -1,0 +1,153 @@
+// The facade, as it is installed.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { kFrameSize, kInked, kInkStride, kRejected, Mimicry, MimicryError } from 'mimicry';
+import { bakeHere } from 'mimicry/bake';
+
+const mimicry = new Mimicry();
+assert.throws(() => mimicry.shape('sphere'), /await mimicry\.ready/);
+assert.equal(await mimicry.ready, mimicry);
+const here = new Float64Array([0, 0, 0, 1, 0, 0, 0, 1]);
+
+function frames(count) {
+  const all = new Float64Array(count * kFrameSize);
+  for (let i = 0; i < count; i += 1) {
+    const frame = all.subarray(i * kFrameSize, (i + 1) * kFrameSize);
+    frame[0] = i / 90;
+    frame[7] = frame[14] = 1;
+    frame.set([0.004 * i - 0.2, 0.1 * Math.sin(0.1 * i), 1.2], 8);
+    frame[15] = 1;
+    frame[16] = -1;
+  }
+  return all;
+}
+
+const bytesOf = (text) => new TextEncoder().encode(text);
+const textOf = (bytes) => new TextDecoder().decode(bytes);
+
+test('lists techniques and shapes', () => {
+  const live = mimicry.techniques.find((t) => t.name === 'mimicry-live');
+  assert.equal(live.needsBake, false);
+  assert.equal(live.anchored, true);
+  assert.ok(live.description.length > 10);
+  const nozzle = live.options.find((o) => o.name === 'nozzle');
+  assert.deepEqual(nozzle.defaults.map((x) => x + 0), [0, 0, -1]);
+  assert.ok(nozzle.lowest < nozzle.highest);
+  assert.ok(mimicry.shapes.some((s) => s.name === 'hand' && s.mostResolution > s.leastResolution));
+});
+
+test('reads meshes and says what they are', () => {
+  const mesh = mimicry.readMesh(bytesOf('v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n'), 'corner.obj');
+  assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 2, 0]);
+  assert.deepEqual([...mesh.faces], [0, 1, 2]);
+  const report = mimicry.validate(mesh);
+  assert.equal(report.area, 1);
+  assert.deepEqual(report.boxMax, [1, 2, 0]);
+  assert.deepEqual([report.faces, report.boundaryLoops, report.manifold, report.closed], [1, 1, true, false]);
+  assert.ok(Number.isNaN(report.volume));
+});
+
+test('errors are sentences with a status', () => {
+  for (const [call, status, words] of [
+    [() => mimicry.readMesh(bytesOf('hello'), 'notes.txt'), 'unsupported', /notes\.txt/],
+    [() => mimicry.readMesh(bytesOf('v 0 0 x'), 'bad.obj'), 'invalid_input', /bad\.obj.*1/],
+    [() => mimicry.shape('teapot'), 'invalid_input', /sphere/],
+    [() => mimicry.createTarget({ positions: new Float64Array([0, 0, NaN]), faces: new Int32Array([0, 0, 0]) }, 'nan.obj'), 'invalid_input', /nan\.obj/],
+    [() => mimicry.readStrokes(bytesOf('{'), 's.json'), 'invalid_input', /s\.json/],
+  ])
+    assert.throws(call, (e) => e instanceof MimicryError && e.status === status && words.test(e.message));
+});
+
+test('draws frame by frame as all at once, and edits', () => {
+  const target = mimicry.createTarget(mimicry.shape('sphere'), 'sphere');
+  const session = target.session('mimicry-live', { options: { nozzle: [0, 0, -1] } });
+  assert.throws(() => target.session('mimicry-live', { options: { colour: 1 } }), /colour/);
+  const all = frames(100);
+  assert.equal(session.add(all.subarray(0, kFrameSize)), kRejected);
+  session.begin(here);
+  let seen = 0;
+  for (let i = 0; i < 100; i += 1) {
+    assert.equal(session.add(all.subarray(i * kFrameSize, (i + 1) * kFrameSize)), kInked);
+    const { count, floats, integers } = session.ink;
+    assert.ok(count > seen);
+    for (let v = seen; v < count; v += 1) {
+      assert.equal(integers[v * kInkStride + 6], i);
+      assert.ok(Math.abs(Math.hypot(...floats.subarray(v * kInkStride, v * kInkStride + 3)) - 1) < 1e-2);
+    }
+    seen = count;
+  }
+  session.end();
+  const curve = session.curve();
+  const again = session.project(here, all);
+  const json = (c) => textOf(target.writeCurves([c], 'json'));
+  assert.equal(json(curve), json(again));
+  assert.deepEqual(curve.ink.floats, again.ink.floats);
+  assert.equal(curve.pointCount, 100);
+  assert.deepEqual([...curve.frames.subarray(0, 3)], [0, 1, 2]);
+  assert.equal(curve.resample(10).pointCount, 10);
+  assert.equal(curve.slice(10, 30).pointCount, 20);
+  assert.ok(curve.close().closed);
+  assert.ok(curve.simplify(0.01).pointCount < 50);
+  assert.ok(curve.smooth(0.5, 3).length <= curve.length);
+  const tube = curve.tube(0.01, 8);
+  assert.equal(tube.positions.length, tube.normals.length);
+  assert.ok(tube.faces.length > 300);
+  const [read] = target.readCurves(target.writeCurves([curve.withStroke('s7')], 'json'), 'c.json');
+  assert.deepEqual([read.stroke, read.technique, read.pointCount], ['s7', 'mimicry-live', 100]);
+  for (const format of ['obj', 'csv', 'ply', 'glb']) assert.ok(target.writeCurves([curve], format).length > 500);
+  target.dispose();
+  assert.ok(curve.length > 0, 'a curve keeps its target');
+  curve.dispose();
+  curve.dispose();
+  assert.throws(() => curve.length, /dispose/);
+});
+
+test('queries', () => {
+  const target = mimicry.createTarget(mimicry.shape('sphere'), 'sphere');
+  const hit = target.firstHit(0, 0, 3, 0, 0, -1);
+  assert.ok(Math.abs(hit.distance - 2) < 1e-2 && Math.abs(hit.normal[2] - 1) < 1e-2);
+  assert.equal(target.firstHit(0, 0, 3, 0, 0, 1), null);
+  assert.ok(Math.abs(target.closestPoint(0, 2, 0).distance - 1) < 1e-2);
+  assert.equal(target.closestPoint(0, 2, 0, 0.5), null);
+  assert.equal(target.vertexNormals().length, mimicry.shape('sphere').positions.length);
+});
+
+test('strokes come back', () => {
+  const stroke = { id: 'a', target: 'sphere', modelToWorld: here, frames: frames(5) };
+  assert.deepEqual(mimicry.readStrokes(mimicry.writeStrokes([stroke]), 's.json'), [stroke]);
+});
+
+test('bakes, and draws with it', async () => {
+  const mesh = mimicry.shape('sphere', 6);
+  const target = mimicry.createTarget(mesh, 'sphere');
+  assert.throws(() => target.session('mimicry'), /bake/);
+  const stages = new Set();
+  const bytes = await bakeHere(mesh, { samples: 60, onProgress: (stage) => stages.add(stage) });
+  assert.ok(stages.has('shell') && stages.has('mds'));
+  const baked = target.withEmbedding(bytes, 'sphere.mimicry');
+  assert.ok(baked.hasEmbedding && !target.hasEmbedding);
+  assert.equal(baked.session('mimicry').project(here, frames(50)).pointCount, 50);
+});
+
+test('memory grows under a session in use, and comes back', () => {
+  const target = mimicry.createTarget(mimicry.shape('sphere'), 'sphere');
+  const session = target.session('snap');
+  session.begin(here);
+  const frame = frames(1);
+  session.add(frame);
+  const before = mimicry.memoryBytes;
+  const others = [];
+  while (mimicry.memoryBytes === before) others.push(target.session('snap'));
+  session.add(frame);
+  const { floats, integers, count } = session.ink;
+  assert.ok(count >= 2 && floats.length > 0 && integers[kInkStride + 6] === 1);
+  for (const other of others) other.dispose();
+  const grown = mimicry.memoryBytes;
+  for (let i = 0; i < 50; i += 1) target.session('snap').dispose();
+  assert.equal(mimicry.memoryBytes, grown);
+});
+
+test('is gone after dispose()', () => {
+  mimicry.dispose();
+  assert.throws(() => mimicry.shape('sphere'), /dispose/);
+});

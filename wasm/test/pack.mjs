@@ -1,0 +1,31 @@
+// pack.mjs PACKAGE_FOLDER: `npm pack`, installed in an empty folder without network, runs the README's
+// program and the tests of the facade.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+const root = process.argv[2];
+const work = mkdtempSync(join(tmpdir(), 'mimicry-pack-'));
+const quiet = { cwd: work, stdio: ['ignore', 'pipe', 'pipe'], encoding: 'utf8' };
+try {
+  execFileSync('npm', ['pack', '--silent', '--pack-destination', work, root], quiet);
+  const archive = readdirSync(work).find((name) => name.endsWith('.tgz'));
+  writeFileSync(join(work, 'package.json'), '{"private": true, "type": "module"}');
+  execFileSync('npm', ['install', '--offline', '--no-audit', '--no-fund', '--silent', `./${archive}`], quiet);
+  const installed = readdirSync(join(work, 'node_modules', 'mimicry'));
+  assert.deepEqual(installed.sort(), ['README.md', 'dist', 'package.json']);
+
+  const program = /```js\n([^]*?)```/.exec(readFileSync(join(root, 'README.md'), 'utf8'))[1];
+  writeFileSync(join(work, 'readme.mjs'), program);
+  assert.match(execFileSync('node', ['readme.mjs'], quiet), /^90 points, 0\.4\d\d long\n$/);
+
+  writeFileSync(join(work, 'api.mjs'), readFileSync(join(root, 'test', 'api.mjs')));
+  process.stdout.write(execFileSync('node', ['--test', '--test-reporter=spec', 'api.mjs'], quiet));
+} catch (error) {
+  console.error(error.stdout ?? '', error.stderr ?? '', error);
+  process.exitCode = 1;
+} finally {
+  rmSync(work, { recursive: true });
+}
