@@ -30,6 +30,7 @@ void add_project(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
 void add_shapes(CLI::App& app, int& status);
 void add_simulate(CLI::App& app, int& status);
+void add_targets(CLI::App& app, int& status);
 void add_techniques(CLI::App& app, int& status);
 
 }  // namespace mimicry::cli

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   add_compare(app, status);
   add_keypoints(app, status);
   add_measure(app, status);
+  add_targets(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {

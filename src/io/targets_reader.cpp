@@ -37,6 +37,13 @@ study::TargetCurve read_curve(const Json& value, const std::string& where) {
   curve.points.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i)
     curve.points.push_back(read_point(faces[i], bary[i], where + ": point " + std::to_string(i)));
+  if (value.contains("parameters") && value["parameters"].contains("k_G")) {
+    const Json& given = value["parameters"];
+    const std::string place = where + ": parameters";
+    curve.parameters = {index(member(given, "control_points", place), place + ": control_points"),
+                        number(given["k_G"], place + ": k_G"),
+                        number(member(given, "k_N_degrees", place), place + ": k_N_degrees")};
+  }
   if (!value.contains("keypoints")) return curve;
   Index previous = kNone;
   for (const Json& entry : array(value, "keypoints", where)) {

@@ -163,11 +163,13 @@ Image figure(std::span<const Scene> panels, const CameraOptions& camera,
 
   CameraOptions framed = camera;
   framed.aspect = static_cast<double>(width) / std::max(1, options.panel.height);
-  const Camera shared = choose_camera(merged(panels), framed);
+  Camera chosen;
+  if (options.one_camera) chosen = choose_camera(merged(panels), framed);
   Image image;
   for (int i = 0; i < count; ++i) {
     const Scene& panel = panels[static_cast<std::size_t>(i)];
-    const Image drawn = render(panel, shared, options.panel);
+    if (!options.one_camera) chosen = choose_camera(panel, framed);
+    const Image drawn = render(panel, chosen, options.panel);
     if (i == 0) {  // the panel's options have been checked
       image = Image(columns * width + (columns - 1) * options.gap,
                     rows * height + (rows - 1) * options.gap, options.panel.background);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,10 +9,18 @@
 
 namespace mimicry::study {
 
+/// What a target curve was sampled with (paper, appendix B).
+struct TargetParameters {
+  Index control_points = 6;  ///< n
+  double k_g = 0.0;          ///< geodesic distance between controls, in diagonals
+  double k_n_deg = 0.0;      ///< angle between the normals of consecutive controls
+};
+
 /// An intended curve of a study task.
 struct TargetCurve {
   std::vector<SurfacePoint> points;
   std::vector<Index> keypoints;  ///< numbers of points, increasing; empty where unpublished
+  std::optional<TargetParameters> parameters;
 };
 
 struct TargetShape {

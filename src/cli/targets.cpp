@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/targets_writer.h>
+#include <mimicry/render/figure.h>
+#include <mimicry/render/palette.h>
+#include <mimicry/render/png.h>
+#include <mimicry/study/sample_targets.h>
+
+#include "cli/canvas.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+
+namespace mimicry::cli {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr render::Color kCurveColor{0.10, 0.35, 0.65};
+constexpr render::Color kKeypointColor{0.85, 0.33, 0.10};
+
+struct Arguments {
+  std::string mesh;
+  std::string out;
+  std::string picture;  // empty: beside `out`
+  std::string embedding;
+  std::string name;
+  std::size_t count = 10;
+  std::uint64_t seed = 1;
+  double scale = 0.0;
+  std::string up = "y";
+  study::TargetSampling sampling;
+  std::vector<double> k_g;
+  std::vector<double> k_n_deg;
+  bool allow_nonmanifold = false;
+  bool no_picture = false;
+};
+
+std::string caption_of(std::size_t number, const study::TargetCurve& curve) {
+  return std::to_string(number) + ":  k_G " + fixed(curve.parameters->k_g, 2) + ", k_N " +
+         fixed(curve.parameters->k_n_deg, 0) + "\u00b0, " + std::to_string(curve.keypoints.size()) +
+         " keypoints";
+}
+
+// A panel for each curve, its keypoints as balls.
+std::string contact_sheet(const spatial::Target& target,
+                          const std::vector<study::TargetCurve>& curves, const Vec3& up) {
+  std::vector<render::Scene> panels;
+  const double radius = 0.005 * target.diagonal();
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    render::Scene& panel = panels.emplace_back();
+    panel.up = up;
+    panel.surfaces.emplace_back().mesh = &target.mesh();
+    render::Tube& tube = panel.tubes.emplace_back();
+    for (const SurfacePoint& p : curves[i].points) tube.points.push_back(target.position(p));
+    tube.radius = radius;
+    tube.color = kCurveColor;
+    for (const Index k : curves[i].keypoints) {
+      const Vec3 place = target.position(curves[i].points[static_cast<std::size_t>(k)]);
+      panel.tubes.push_back({{place}, 2.0 * radius, kKeypointColor, "", 0.0});
+    }
+    panel.caption = caption_of(i, curves[i]);
+  }
+  render::FigureOptions options;
+  options.one_camera = false;
+  options.columns = 5;
+  options.panel.width = 360;
+  options.panel.height = 320;
+  return render::write_png(render::figure(panels, {}, options));
+}
+
+void set_range(const std::vector<double>& given, double unit, double& least, double& most) {
+  if (given.empty()) return;
+  least = unit * given.front();
+  most = unit * given.back();
+}
+
+void run(const Arguments& args) {
+  study::TargetSampling sampling = args.sampling;
+  set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
+  set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const double scale = args.scale > 0.0 ? args.scale : named.metres_per_unit;
+  // A technique that needs the bake stands for the splines, which do.
+  const technique::TechniqueInfo* needs = &technique::find_technique("mimicry");
+  const PreparedCanvas prepared(target, std::span(&needs, 1), args.embedding);
+
+  study::SampledTargets sampled;
+  {
+    ProgressLine line("sampling");
+    sampled =
+        study::sample_targets(*prepared.canvas().projector, scale, args.count, sampling,
+                              Random(args.seed), [&](const Progress& progress) {
+                                line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
+                                return true;
+                              });
+  }
+  study::TargetShape shape;
+  shape.name = args.name.empty() ? std::filesystem::path(named.name).stem().string() : args.name;
+  shape.scale = scale;
+  shape.curves = sampled.curves;
+  const std::string note = "Target curves on " + named.name + " (" +
+                           std::to_string(named.mesh.vertex_count()) + " vertices, " +
+                           std::to_string(named.mesh.face_count()) +
+                           " faces). face: 0-based, in file order; bary: of the face's three "
+                           "corners; keypoints: numbers "
+                           "of the curve's points; scale: metres per mesh unit. seed " +
+                           std::to_string(args.seed) + ".";
+  const std::string text = io::write_targets({{shape}}, note);
+  std::string picture = args.picture;
+  if (picture.empty()) picture = std::filesystem::path(args.out).replace_extension(".png").string();
+  const std::string sheet =
+      args.no_picture
+          ? ""
+          : contact_sheet(target, shape.curves, args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY());
+  files::write_file_atomically(args.out, text);
+  const study::SamplingCounts& n = sampled.counts;
+  std::printf(
+      "%s: %zu curves; refused: %zu that met themselves, %zu that jumped, %zu without room "
+      "for their controls\n",
+      args.out.c_str(), n.accepted, n.self_crossing, n.jumps, n.no_controls);
+  if (args.no_picture) return;
+  files::write_file_atomically(picture, sheet);
+  std::printf("%s\n", picture.c_str());
+}
+
+}  // namespace
+
+void add_targets(CLI::App& app, int&) {
+  auto* command = app.add_subcommand("targets", "Sample target curves for a study on a mesh");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("mesh", args->mesh, kMeshHelp)->required();
+  command->add_option("-o,--out", args->out, "The file of target curves to write")->required();
+  command->add_option("--picture", args->picture, "The contact sheet (PNG); default: beside --out");
+  command->add_flag("--no-picture", args->no_picture, "Without the contact sheet");
+  command->add_option("--count", args->count, "Curves")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", args->seed, "Of all that is random")->capture_default_str();
+  command->add_option("--controls", args->sampling.controls, "Control points of each curve")
+      ->check(CLI::Range(4, 100))
+      ->capture_default_str();
+  command->add_option("--points", args->sampling.points, "Points of each curve")
+      ->check(CLI::Range(50, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--k-g", args->k_g,
+                   "Distance between controls in diagonals: one number or LOW,HIGH "
+                   "(default 0.05,0.25)")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(number_between(1e-3, 10));
+  command
+      ->add_option("--k-n", args->k_n_deg,
+                   "Angle between their normals in degrees: one number or LOW,HIGH "
+                   "(default 30,75)")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(number_between(0, 180));
+  command->add_option("--name", args->name, "The shape's name in the file (default: the mesh's)");
+  command
+      ->add_option("--scale", args->scale,
+                   "Metres per mesh unit, for the keypoints (default: the shape's own)")
+      ->check(number_between(1e-12, 1e12));
+  command->add_option("--embedding", args->embedding,
+                      "The mesh's bake (mimicry bake); without it one is made");
+  command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces");
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli
