@@ -42,24 +42,24 @@ bool ExactGeodesics::State::reach_vertex(Index v, double distance, Index from) {
 
 // A window on half-edge h whose source lies on the side of h's face; all in the frame of h.
 void ExactGeodesics::State::add_window(Index h, double begin, double end, double x, double y,
-                                       double sigma) {
+                                       Index root) {
   if (!half_edges.has_twin(h)) return;
   const EdgeFrame& f = frame(h);
   begin = std::max(begin, 0.0);
   end = std::min(end, f.length);
   if (!(end - begin > 1e-11 * f.length)) return;
   Window w;
-  w.sigma = sigma;
   w.y = std::max(y, 1e-13 * f.length);
-  w.entered = half_edges.twin(h);
+  w.root = root;
+  w.forward = !f.forward;
   w.begin = begin;
   w.end = end;
   w.x = x;
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
   const double at_tail = at(half_edges.tail(h));
   const double at_head = at(half_edges.head(h));
-  const double d_begin = w.distance(begin);
-  const double d_end = w.distance(end);
+  const double d_begin = lists.distance(w, begin);
+  const double d_end = lists.distance(w, end);
   if (at_tail + end < d_end * (1.0 - kSame)) return;
   if (at_head + (f.length - begin) < d_begin * (1.0 - kSame)) return;
   if (!f.forward) {
@@ -67,20 +67,56 @@ void ExactGeodesics::State::add_window(Index h, double begin, double end, double
     w.end = f.length - begin;
     w.x = f.length - x;
   }
-  added.clear();
-  lists.insert(f.edge, f.length, w, added);
-  made += added.size();
-  for (const Index i : added) push(lists[i].nearest(), i);
+  for (Batch& batch : batches)
+    if (batch.edge == f.edge) {
+      batch.windows.push_back(w);
+      return;
+    }
+  merge(f.edge, f.length, {&w, 1});
 }
 
-// Sends a window across the face that it looks into.
-void ExactGeodesics::State::propagate(const Window& window) {
-  const EdgeFrame& f = frame(window.entered);
-  const double b0 = f.forward ? window.begin : f.length - window.end;
-  const double b1 = f.forward ? window.end : f.length - window.begin;
-  const double x = f.forward ? window.x : f.length - window.x;
-  spread({window.entered, Vec2(x, -window.y), Vec2(b0 - x, window.y), Vec2(b1 - x, window.y),
-          window.sigma, 0});
+void ExactGeodesics::State::merge(Index edge, double length, std::span<const Window> windows) {
+  const WindowLists::Merged merged = lists.merge(edge, length, windows);
+  made += merged.pieces;
+  double& key = edge_keys[static_cast<std::size_t>(edge)];
+  if (merged.nearest < key) {
+    key = merged.nearest;
+    push(key, edge);
+  }
+}
+
+// Sends an edge's waiting windows across the faces that they look into.
+void ExactGeodesics::State::send_on(Index edge) {
+  leaving.clear();
+  for (Window& w : lists[edge]) {
+    if (!w.waits) continue;
+    w.waits = false;
+    leaving.push_back(w);
+  }
+  const Index forward = surface.edge_half_edges[static_cast<std::size_t>(edge)];
+  for (const Index h : {forward, half_edges.twin(forward)}) {
+    const EdgeFrame& f = frame(h);
+    batches[0].edge = frame(HalfEdges::next(h)).edge;
+    batches[1].edge = frame(HalfEdges::previous(h)).edge;
+    for (const Window& w : leaving) {
+      if (w.forward != f.forward) continue;
+      const double b0 = f.forward ? w.begin : f.length - w.end;
+      const double b1 = f.forward ? w.end : f.length - w.begin;
+      const double x = f.forward ? w.x : f.length - w.x;
+      spread({h, Vec2(x, -w.y), Vec2(b0 - x, w.y), Vec2(b1 - x, w.y), w.root, 0});
+    }
+    for (Batch& batch : batches) {
+      auto& windows = batch.windows;
+      if (!windows.empty()) {
+        if (windows.front().begin > windows.back().begin)
+          std::reverse(windows.begin(), windows.end());
+        merge(batch.edge, frame(surface.edge_half_edges[static_cast<std::size_t>(batch.edge)]).length,
+              windows);
+        windows.clear();
+      }
+      batch.edge = kNone;
+    }
+  }
 }
 
 void ExactGeodesics::State::spread(const Fan& fan) {
@@ -88,6 +124,7 @@ void ExactGeodesics::State::spread(const Fan& fan) {
   const Index right = HalfEdges::next(fan.entered);     // head to apex
   const Index left = HalfEdges::previous(fan.entered);  // apex to tail
   const Vec2& s = fan.source;
+  const double sigma = lists.sigma(fan.root);
   const Vec2 c(f.apex_x, f.apex_y);
   const Vec2 to_apex = c - s;
   // > 0: the apex lies to the left of the ray.
@@ -100,7 +137,7 @@ void ExactGeodesics::State::spread(const Fan& fan) {
   double reached = kInfinity;
   Vec2 seen_from = s;  // the point that the apex is reached from, in a straight line
   if (reaches_left && reaches_right) {
-    reached = fan.sigma + to_apex.norm();
+    reached = sigma + to_apex.norm();
   } else {
     // Just outside by rounding: around where the ray comes in, which is never too short.
     const Vec2& ray = reaches_left ? fan.right : fan.left;
@@ -108,7 +145,7 @@ void ExactGeodesics::State::spread(const Fan& fan) {
     if (off <= 1e-6 * ray.dot(to_apex) && ray.y() > 0.0) {
       const double along = -s.y() / ray.y();
       seen_from = Vec2(std::clamp(s.x() + along * ray.x(), 0.0, f.length), 0.0);
-      reached = fan.sigma + (seen_from - s).norm() + (c - seen_from).norm();
+      reached = sigma + (seen_from - s).norm() + (c - seen_from).norm();
     }
   }
   if (reached < kInfinity && reach_vertex(apex, reached, kThroughFaces) &&
@@ -133,9 +170,9 @@ void ExactGeodesics::State::spread(const Fan& fan) {
       if (twin >= 0 && fan.depth < kDeepest)
         spread({twin, Vec2(length - x, -std::max(y, 0.0)),
                 Vec2(-e.dot(left_ray), -cross(e, left_ray)),
-                Vec2(-e.dot(right_ray), -cross(e, right_ray)), fan.sigma, fan.depth + 1});
+                Vec2(-e.dot(right_ray), -cross(e, right_ray)), fan.root, fan.depth + 1});
     }
-    add_window(h, begin, end, x, y, fan.sigma);
+    add_window(h, begin, end, x, y, fan.root);
   };
   if (reaches_left) {
     // Where a ray meets the edge, from 0 at the tail of `entered` to 1 at the apex.
@@ -178,6 +215,7 @@ void ExactGeodesics::State::leave_vertex(Index v) {
   // Allowed directions, as angles from the start of the fan: interior [low, high], and the same a
   // turn away; boundary: below `below` or above `above`.
   const double arrival = arrival_angles[i];
+  const Index root = lists.add_root(d);
 
   for (Index k = surface.fan_begin[i]; k < surface.fan_begin[i + 1]; ++k) {
     const Index h = surface.fan[static_cast<std::size_t>(k)];
@@ -213,8 +251,8 @@ void ExactGeodesics::State::leave_vertex(Index v) {
           return {-std::sin(turn), std::cos(turn)};
         };
         spread({half_edges.twin(opposite), Vec2(f.length - f.apex_x, -f.apex_y), ray(to), ray(from),
-                d, 1});
-        add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d);
+                root, 1});
+        add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, root);
         return;
       }
       const auto place = [&](double angle, double limit) {
@@ -222,10 +260,10 @@ void ExactGeodesics::State::leave_vertex(Index v) {
         return std::abs(turn) < 0.5 * kPi - 1e-9 ? f.apex_x + f.apex_y * std::tan(turn) : limit;
       };
       add_window(opposite, from > a0 ? place(from, 0.0) : 0.0,
-                 to < a1 ? place(to, f.length) : f.length, f.apex_x, f.apex_y, d);
+                 to < a1 ? place(to, f.length) : f.length, f.apex_x, f.apex_y, root);
     };
     if (everywhere && !is_on_opposite) {
-      add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, d);
+      add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, root);
     } else if (everywhere) {
       send(a0, a1);
     } else if (is_boundary) {
@@ -248,6 +286,7 @@ void ExactGeodesics::State::start(Index number) {
       vertex_sources[static_cast<std::size_t>(site.index)] = number;
     return;
   }
+  const Index root = lists.add_root(source.distance);
   const auto leave_into = [&](Index face, Index own_edge) {
     face_sources.emplace_back(face, number);
     for (int k = 0; k < 3; ++k) {
@@ -261,7 +300,7 @@ void ExactGeodesics::State::start(Index number) {
       if (h == own_edge || frame(h).length == 0.0) continue;
       const Vec3 along = (mesh.corner(face, (k + 1) % 3) - mesh.corner(face, k)) / frame(h).length;
       add_window(h, 0.0, frame(h).length, to_tail.dot(along), to_tail.cross(along).norm(),
-                 source.distance);
+                 root);
     }
   };
   if (site.kind == Site::Kind::face) {
@@ -290,6 +329,7 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
   lists.reset(surface.edge_half_edges.size());
   heap.clear();
+  edge_keys.assign(surface.edge_half_edges.size(), kInfinity);
   face_sources.clear();
   distances.assign(vertices, kInfinity);
   arrival_angles.assign(vertices, 0.0);
@@ -344,17 +384,13 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
       if (top.key == at(v)) leave_vertex(v);
       continue;
     }
-    Window& window = lists[top.item];
-    if (window.state == Window::dead) {
-      lists.release(top.item);
-      continue;
-    }
-    if (made > most) {
+    double& key = edge_keys[static_cast<std::size_t>(top.item)];
+    if (top.key != key) continue;
+    key = kInfinity;
+    if (made > most)
       complete = false;
-      continue;
-    }
-    window.state = Window::done;
-    propagate(Window(window));
+    else
+      send_on(top.item);
   }
   known = stopped ? stop : kInfinity;
 }

@@ -22,12 +22,11 @@ void ExactGeodesics::State::best_window(Index h, const Vec2& p, Step& best) cons
   if (!half_edges.has_twin(h)) return;
   const EdgeFrame& f = frame(h);
   const double px = f.forward ? p.x() : f.length - p.x();
-  for (Index i = lists.first(f.edge); i != kNone; i = lists[i].next) {
-    const Window& w = lists[i];
-    if (w.entered != h) continue;
+  for (const Window& w : lists[f.edge]) {
+    if (w.forward != f.forward) continue;
     const double straight = w.x + (px - w.x) * (w.y / (w.y + p.y()));
     const double x = std::clamp(straight, w.begin, w.end);
-    const double d = w.distance(x) + std::sqrt((px - x) * (px - x) + p.y() * p.y());
+    const double d = lists.distance(w, x) + std::sqrt((px - x) * (px - x) + p.y() * p.y());
     if (d < best.distance) best = {Step::Kind::edge, d, h, f.forward ? x : f.length - x};
   }
 }
@@ -195,7 +194,7 @@ std::size_t ExactGeodesics::windows_made() const {
 std::size_t ExactGeodesics::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   const State& s = *state_;
-  return s.lists.memory_bytes() + bytes(s.heap) + bytes(s.distances) + bytes(s.arrival_angles) +
+  return s.lists.memory_bytes() + bytes(s.heap) + bytes(s.edge_keys) + bytes(s.distances) + bytes(s.arrival_angles) +
          bytes(s.arrived_from) + bytes(s.vertex_sources) + bytes(s.is_watched) +
          bytes(s.surface.frames) + bytes(s.surface.edge_half_edges) +
          bytes(s.surface.start_angles) + bytes(s.surface.corner_angles) +

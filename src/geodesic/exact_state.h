@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -32,7 +33,7 @@ struct ExactGeodesics::State {
 
   struct Entry {
     double key;
-    Index item;                                 ///< a window, or -1 - vertex
+    Index item;                                 ///< an edge with windows that wait, or -1 - vertex
     bool operator<(const Entry& other) const {  // of a heap with the nearest on top
       return key != other.key ? key > other.key : item > other.item;
     }
@@ -45,7 +46,7 @@ struct ExactGeodesics::State {
     Vec2 source;
     Vec2 left;
     Vec2 right;
-    double sigma;
+    Index root;
     int depth;
   };
 
@@ -53,7 +54,14 @@ struct ExactGeodesics::State {
   std::vector<std::pair<Index, Index>> face_sources;  // (face, source), sorted
   WindowLists lists;
   std::vector<Entry> heap;
-  std::vector<Index> added;
+  std::vector<double> edge_keys;  // #E, of the edge's entry in the heap; kInfinity: it has none
+  // Windows being made, for the two edges behind the one that is sent on.
+  struct Batch {
+    Index edge = kNone;
+    std::vector<Window> windows;
+  };
+  std::array<Batch, 2> batches;
+  std::vector<Window> leaving;
   std::vector<double> distances;         // #V
   std::vector<double> arrival_angles;    // #V, around the vertex, of the way it was reached
   std::vector<Index> arrived_from;       // #V: a vertex along an edge, kThroughFaces, kNone
@@ -75,9 +83,10 @@ struct ExactGeodesics::State {
   void push(double key, Index item);
   bool reach_vertex(Index v, double distance, Index from);
   void leave_vertex(Index v);
-  void propagate(const Window& window);
+  void send_on(Index edge);
   void spread(const Fan& fan);
-  void add_window(Index h, double begin, double end, double x, double y, double sigma);
+  void add_window(Index h, double begin, double end, double x, double y, Index root);
+  void merge(Index edge, double length, std::span<const Window> windows);
 
   /// Position in the frame of half-edge h of a point of its face.
   Vec2 in_frame(Index h, const SurfacePoint& p) const;

@@ -34,10 +34,11 @@ struct Segments {
 struct Comparison {
   const Window& newer;
   const Window& older;
+  double offset;  // the newer source's own distance less the older's
   double least_width;
   double tie;
 
-  double difference(double x) const { return newer.distance(x) - older.distance(x); }
+  double difference(double x) const { return offset + (newer.to_source(x) - older.to_source(x)); }
   int sign(double g) const { return g < -tie ? -1 : g > tie ? 1 : 0; }
 
   // The zero of the difference between a and b, where it has opposite signs: regula falsi with the
@@ -97,95 +98,129 @@ struct Comparison {
   }
 };
 
+// Places for lists come in sizes of 1 to 8 windows, and four between each two powers of 2 above.
+std::size_t size_class_of(std::size_t count) {
+  if (count <= 8) return count;
+  std::size_t unit = 2;
+  std::size_t base = 8;
+  while (count > 8 * unit) unit *= 2, base += 4;
+  return base + (count + unit - 1) / unit - 4;
+}
+
+std::size_t class_size(std::size_t size_class) {
+  if (size_class <= 8) return size_class;
+  const std::size_t octave = (size_class - 9) / 4;
+  return ((size_class - 9) % 4 + 5) << (octave + 1);
+}
+
+constexpr std::size_t kBlock = 8192;
+
 }  // namespace
 
 void WindowLists::reset(std::size_t edge_count) {
+  lists_.assign(edge_count, {});
+  sigmas_.clear();
+  block_ = 0;
   used_ = 0;
-  free_ = kNone;
-  first_.assign(edge_count, kNone);
+  for (auto& places : free_) places.clear();
 }
 
-void WindowLists::release(Index i) {
-  (*this)[i].next = free_;
-  free_ = i;
-}
-
-Index WindowLists::append_after(Index edge, Index previous, const Window& window) {
-  Index i = free_;
-  if (i != kNone) {
-    free_ = (*this)[i].next;
-    (*this)[i] = window;
-  } else {
-    if (used_ == blocks_.size() * kBlock) blocks_.push_back(std::make_unique<Window[]>(kBlock));
-    i = static_cast<Index>(used_++);
-    (*this)[i] = window;
+Window* WindowLists::take(std::size_t size_class) {
+  if (size_class >= free_.size()) free_.resize(size_class + 1);
+  if (!free_[size_class].empty()) {
+    Window* place = free_[size_class].back();
+    free_[size_class].pop_back();
+    return place;
   }
-  Index& link = previous == kNone ? first_[static_cast<std::size_t>(edge)] : (*this)[previous].next;
-  (*this)[i].next = link;
-  link = i;
-  return i;
+  const std::size_t size = class_size(size_class);
+  while (block_ < blocks_.size() && used_ + size > blocks_[block_].size) ++block_, used_ = 0;
+  if (block_ == blocks_.size()) {
+    const std::size_t block_size = std::max(kBlock, size);
+    blocks_.push_back({std::make_unique_for_overwrite<Window[]>(block_size), block_size});
+  }
+  Window* place = &blocks_[block_].windows[used_];
+  used_ += size;
+  return place;
 }
 
-void WindowLists::insert(Index edge, double edge_length, const Window& window,
-                         std::vector<Index>& added) {
+// Puts what is on the two stacks back.
+void WindowLists::store(List& list) {
+  const std::size_t count = left_.size() + right_.size();
+  const std::size_t size_class = size_class_of(count);
+  if (size_class != list.size_class) {
+    if (list.size_class != 0) free_[list.size_class].push_back(list.first);
+    list.first = count > 0 ? take(size_class) : nullptr;
+    list.size_class = static_cast<std::uint32_t>(size_class);
+  }
+  list.count = static_cast<std::uint32_t>(count);
+  std::copy(left_.begin(), left_.end(), list.first);
+  std::copy(right_.rbegin(), right_.rend(), list.first + left_.size());
+}
+
+WindowLists::Merged WindowLists::merge(Index edge, double edge_length, std::span<const Window> windows) {
+  List& list = lists_[static_cast<std::size_t>(edge)];
+  left_.clear();
+  right_.assign(std::reverse_iterator(list.first + list.count), std::reverse_iterator(list.first));
+  Merged merged;
+  for (const Window& w : windows) insert(edge_length, w, merged);
+  store(list);
+  return merged;
+}
+
+void WindowLists::insert(double edge_length, const Window& window, Merged& merged) {
   const double least = kLeastWidth * edge_length;
   double open = window.begin;  // the new window owns what lies between here and the next older one
-  Index previous = kNone;
   const auto close = [&](double end) {
     if (end - open <= least) return;
-    Window piece = window;
-    piece.begin = open;
-    piece.end = end;
-    previous = append_after(edge, previous, piece);
-    added.push_back(previous);
+    left_.push_back(window);
+    left_.back().begin = open;
+    left_.back().end = end;
+    ++merged.pieces;
+    merged.nearest = std::min(merged.nearest, sigma(window.root) + left_.back().nearest());
   };
 
-  Index i = first(edge);
-  while (i != kNone && (*this)[i].end <= window.begin) previous = i, i = (*this)[i].next;
-  while (i != kNone && (*this)[i].begin < window.end) {
-    const Window older = (*this)[i];
+  while (!right_.empty() && right_.back().end <= window.begin) {
+    left_.push_back(right_.back());
+    right_.pop_back();
+  }
+  while (!left_.empty() && left_.back().end > window.begin) {
+    right_.push_back(left_.back());
+    left_.pop_back();
+  }
+  while (!right_.empty() && right_.back().begin < window.end) {
+    const Window older = right_.back();
+    right_.pop_back();
     const double a = std::max(window.begin, older.begin);
     const double b = std::min(window.end, older.end);
     Segments segments;
     if (older.begin < a - least) segments.add(older.begin, a, false);
     if (b - a > least) {
-      const double scale = std::max(older.distance(a), window.distance(a)) + edge_length;
-      Comparison{window, older, least, kTie * scale}.split(a, b, segments);
+      const double scale = std::max(distance(older, a), distance(window, a)) + edge_length;
+      Comparison{window, older, sigma(window.root) - sigma(older.root), least, kTie * scale}.split(a, b,
+                                                                                        segments);
     } else {
       segments.add(a, b, false);
     }
     if (older.end > b + least) segments.add(b, older.end, false);
 
-    bool kept = false;
     for (int k = 0; k < segments.count; ++k) {
       const Segment& s = segments.items[static_cast<std::size_t>(k)];
       if (s.newer || (s.end - s.begin <= least && segments.count > 1)) continue;
       close(s.begin);
-      if (!kept) {
-        (*this)[i].begin = s.begin;
-        (*this)[i].end = s.end;
-        previous = i;
-      } else {
-        Window copy = older;
-        copy.begin = s.begin;
-        copy.end = s.end;
-        previous = append_after(edge, previous, copy);
-        if (copy.state == Window::waiting) added.push_back(previous);
-      }
-      kept = true;
+      left_.push_back(older);
+      left_.back().begin = s.begin;
+      left_.back().end = s.end;
       open = std::max(open, s.end);
     }
-    const Index next = kept ? (*this)[previous].next : (*this)[i].next;
-    if (!kept) {
-      (previous == kNone ? first_[static_cast<std::size_t>(edge)] : (*this)[previous].next) = next;
-      if (older.state == Window::waiting)
-        (*this)[i].state = Window::dead;  // the queue still holds it
-      else
-        release(i);
-    }
-    i = next;
   }
   close(window.end);
+}
+
+std::size_t WindowLists::memory_bytes() const {
+  std::size_t bytes = lists_.capacity() * sizeof(List) + sigmas_.capacity() * sizeof(double);
+  for (const Block& b : blocks_) bytes += b.size * sizeof(Window);
+  for (const auto& places : free_) bytes += places.capacity() * sizeof(Window*);
+  return bytes;
 }
 
 }  // namespace mimicry::geodesic

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <mimicry/base/types.h>
@@ -13,23 +14,19 @@ namespace mimicry::geodesic {
 /// (Mitchell, Mount and Papadimitriou 1987). Coordinates are along the edge from its tail (x) and
 /// away from it (y >= 0, on the side that the source lies on after unfolding).
 struct Window {
-  enum State : Index { dead = -1, waiting, done };  // two bits
-
   double begin = 0.0;
   double end = 0.0;
   double x = 0.0;  ///< the source
   double y = 0.0;
-  double sigma = 0.0;      ///< distance of the source itself
-  Index next = kNone;      ///< the window to the right on the same edge
-  Index entered : 30 = 0;  ///< the edge's half-edge on the side away from the source
-  Index state : 2 = waiting;
+  Index root = 0;        ///< number of the source's own distance, `WindowLists::sigma`
+  bool forward = false;  ///< goes on over the edge's forward half-edge
+  bool waits = true;     ///< has not been sent on yet
 
-  double distance(double at) const { return sigma + std::sqrt((at - x) * (at - x) + y * y); }
-  /// The least distance on the window.
-  double nearest() const {
-    return x < begin ? distance(begin) : x > end ? distance(end) : sigma + y;
-  }
+  double to_source(double at) const { return std::sqrt((at - x) * (at - x) + y * y); }
+  /// The least distance from the source on the window.
+  double nearest() const { return x < begin ? to_source(begin) : x > end ? to_source(end) : y; }
 };
+static_assert(sizeof(Window) == 40);
 
 /// The windows of all edges, on each edge side by side without overlap: where two would overlap
 /// each keeps the part where it is nearer.
@@ -37,33 +34,58 @@ class WindowLists {
  public:
   void reset(std::size_t edge_count);
 
-  /// Puts `window` on an edge and appends to `added` the numbers of all windows that now wait and
-  /// did not before. What it covers elsewhere stays with whoever is nearer; ties stay as they are.
-  void insert(Index edge, double edge_length, const Window& window, std::vector<Index>& added);
+  /// Registers a distance that windows start from.
+  Index add_root(double sigma) {
+    sigmas_.push_back(sigma);
+    return static_cast<Index>(sigmas_.size()) - 1;
+  }
+  double sigma(Index root) const { return sigmas_[static_cast<std::size_t>(root)]; }
+  double distance(const Window& w, double at) const { return sigma(w.root) + w.to_source(at); }
 
-  Index first(Index edge) const { return first_[static_cast<std::size_t>(edge)]; }
-  const Window& operator[](Index i) const {
-    return blocks_[static_cast<std::size_t>(i) / kBlock][static_cast<std::size_t>(i) % kBlock];
-  }
-  Window& operator[](Index i) {
-    return blocks_[static_cast<std::size_t>(i) / kBlock][static_cast<std::size_t>(i) % kBlock];
-  }
-  /// To be called for a dead window when nothing refers to it any more.
-  void release(Index i);
+  struct Merged {
+    std::size_t pieces = 0;      ///< of the new windows that stay
+    double nearest = kInfinity;  ///< the least distance on them
+  };
+  /// Puts windows on an edge, best in ascending order. What they cover elsewhere stays with whoever
+  /// is nearer; ties stay as they are.
+  Merged merge(Index edge, double edge_length, std::span<const Window> windows);
 
-  std::size_t memory_bytes() const {
-    return blocks_.size() * kBlock * sizeof(Window) + first_.capacity() * sizeof(Index);
+  std::span<const Window> operator[](Index edge) const {
+    const List& list = lists_[static_cast<std::size_t>(edge)];
+    return {list.first, list.count};
   }
+  std::span<Window> operator[](Index edge) {
+    const List& list = lists_[static_cast<std::size_t>(edge)];
+    return {list.first, list.count};
+  }
+
+  std::size_t memory_bytes() const;
 
  private:
-  Index append_after(Index edge, Index previous, const Window& window);
+  struct List {
+    Window* first = nullptr;
+    std::uint32_t count = 0;
+    std::uint32_t size_class = 0;  // of the place it has, 0: none
+  };
+  struct Block {
+    std::unique_ptr<Window[]> windows;
+    std::size_t size = 0;
+  };
 
-  // In blocks, so that growing neither copies nor holds memory twice.
-  static constexpr std::size_t kBlock = 4096;
-  std::vector<std::unique_ptr<Window[]>> blocks_;
+  void insert(double edge_length, const Window& window, Merged& merged);
+  void store(List& list);
+  Window* take(std::size_t size_class);
+
+  std::vector<List> lists_;  // #E
+  std::vector<double> sigmas_;
+  std::vector<Block> blocks_;  // places of all lists; growing moves nothing
+  std::size_t block_ = 0;      // being filled, up to
   std::size_t used_ = 0;
-  std::vector<Index> first_;  // #E
-  Index free_ = kNone;
+  std::vector<std::vector<Window*>> free_;  // places given back, by size class
+  // The list being merged, cut in two where the next window goes in: to the left in order, to the
+  // right backwards.
+  std::vector<Window> left_;
+  std::vector<Window> right_;
 };
 
 }  // namespace mimicry::geodesic
