@@ -18,6 +18,15 @@ static double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+// As numbers: vectors just written one by one are slow to read as a pair.
+static double dot(const Vec2& a, const Vec2& b) {
+  return a.x() * b.x() + a.y() * b.y();
+}
+
+static Vec2 between(const Vec2& from, const Vec2& to) {
+  return {to.x() - from.x(), to.y() - from.y()};
+}
+
 static double angle_between(const Vec3& a, const Vec3& b) {
   const double cross = a.cross(b).norm();
   const double dot = a.dot(b);
@@ -48,34 +57,28 @@ void ExactGeodesics::State::add_window(Index h, double begin, double end, double
   begin = std::max(begin, 0.0);
   end = std::min(end, f.length);
   if (!(end - begin > 1e-11 * f.length)) return;
-  Window w;
-  w.y = std::max(y, 1e-13 * f.length);
-  w.root = root;
-  w.forward = !f.forward;
-  w.begin = begin;
-  w.end = end;
-  w.x = x;
+  y = std::max(y, 1e-13 * f.length);
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
-  const double at_tail = at(half_edges.tail(h));
-  const double at_head = at(half_edges.head(h));
-  const double d_begin = lists.distance(w, begin);
-  const double d_end = lists.distance(w, end);
-  if (at_tail + end < d_end * (1.0 - kSame)) return;
-  if (at_head + (f.length - begin) < d_begin * (1.0 - kSame)) return;
-  if (!f.forward) {
-    w.begin = f.length - end;
-    w.end = f.length - begin;
-    w.x = f.length - x;
-  }
+  const double sigma = lists.sigma(root);
+  const auto is_nearer = [&](double around, double place) {
+    const double rest = around * (1.0 + kSame) - sigma;
+    return rest < 0.0 || rest * rest < (place - x) * (place - x) + y * y;
+  };
+  if (is_nearer(at(half_edges.tail(h)) + end, end)) return;
+  if (is_nearer(at(half_edges.head(h)) + (f.length - begin), begin)) return;
+  const Window w =
+      f.forward ? Window{begin, end, x, y, root, false, true}
+                : Window{f.length - end, f.length - begin, f.length - x, y, root, true, true};
   for (Batch& batch : batches)
     if (batch.edge == f.edge) {
-      batch.windows.push_back(w);
+      batch.windows.push(w);
       return;
     }
-  merge(f.edge, f.length, {&w, 1});
+  strays.emplace_back(f.edge, w);
 }
 
-void ExactGeodesics::State::merge(Index edge, double length, std::span<const Window> windows) {
+void ExactGeodesics::State::merge(Index edge, std::span<const Window> windows) {
+  const double length = frame(surface.edge_half_edges[static_cast<std::size_t>(edge)]).length;
   const WindowLists::Merged merged = lists.merge(edge, length, windows);
   made += merged.pieces;
   double& key = edge_keys[static_cast<std::size_t>(edge)];
@@ -85,48 +88,69 @@ void ExactGeodesics::State::merge(Index edge, double length, std::span<const Win
   }
 }
 
+void ExactGeodesics::State::merge_strays() {
+  for (const auto& [edge, window] : strays) merge(edge, {&window, 1});
+  strays.clear();
+}
+
 // Sends an edge's waiting windows across the faces that they look into.
 void ExactGeodesics::State::send_on(Index edge) {
-  leaving.clear();
-  for (Window& w : lists[edge]) {
-    if (!w.waits) continue;
-    w.waits = false;
-    leaving.push_back(w);
-  }
   const Index forward = surface.edge_half_edges[static_cast<std::size_t>(edge)];
   for (const Index h : {forward, half_edges.twin(forward)}) {
-    const EdgeFrame& f = frame(h);
-    batches[0].edge = frame(HalfEdges::next(h)).edge;
-    batches[1].edge = frame(HalfEdges::previous(h)).edge;
-    for (const Window& w : leaving) {
-      if (w.forward != f.forward) continue;
-      const double b0 = f.forward ? w.begin : f.length - w.end;
-      const double b1 = f.forward ? w.end : f.length - w.begin;
-      const double x = f.forward ? w.x : f.length - w.x;
-      spread({h, Vec2(x, -w.y), Vec2(b0 - x, w.y), Vec2(b1 - x, w.y), w.root, 0});
+    const bool is_forward = h == forward;
+    const auto goes_on = [&](const Window& w) { return w.waits && w.forward == is_forward; };
+    const std::span<Window> windows = lists[edge];
+    const auto first = std::find_if(windows.begin(), windows.end(), goes_on);
+    if (first == windows.end()) continue;
+    const Facet behind = facet(h);
+    batches[0].edge = frame(behind.left.half_edge).edge;
+    batches[1].edge = frame(behind.right.half_edge).edge;
+    for (Window& w : windows.subspan(static_cast<std::size_t>(first - windows.begin()))) {
+      if (!goes_on(w)) continue;
+      w.waits = false;
+      const double b0 = is_forward ? w.begin : behind.length - w.end;
+      const double b1 = is_forward ? w.end : behind.length - w.begin;
+      const double x = is_forward ? w.x : behind.length - w.x;
+      spread(behind, {Vec2(x, -w.y), Vec2(b0 - x, w.y), Vec2(b1 - x, w.y), w.root, 0});
     }
     for (Batch& batch : batches) {
-      auto& windows = batch.windows;
-      if (!windows.empty()) {
-        if (windows.front().begin > windows.back().begin)
-          std::reverse(windows.begin(), windows.end());
-        merge(batch.edge, frame(surface.edge_half_edges[static_cast<std::size_t>(batch.edge)]).length,
-              windows);
-        windows.clear();
+      const std::span<Window> made_here = batch.windows.windows();
+      if (!made_here.empty()) {
+        if (made_here.front().begin > made_here.back().begin)
+          std::reverse(made_here.begin(), made_here.end());
+        merge(batch.edge, made_here);
+        batch.windows.clear();
       }
       batch.edge = kNone;
     }
   }
+  merge_strays();
 }
 
-void ExactGeodesics::State::spread(const Fan& fan) {
-  const EdgeFrame& f = frame(fan.entered);
-  const Index right = HalfEdges::next(fan.entered);     // head to apex
-  const Index left = HalfEdges::previous(fan.entered);  // apex to tail
+ExactGeodesics::State::Facet ExactGeodesics::State::facet(Index entered) const {
+  const EdgeFrame& f = frame(entered);
+  const Index left = HalfEdges::previous(entered);
+  const Index right = HalfEdges::next(entered);
+  const EdgeFrame& side = frame(right);
+  const Vec2 apex(f.apex_x, f.apex_y);
+  const Vec2 head(f.length, 0.0);
+  const double left_length = frame(left).length;
+  // From the edge's own frame: the difference of apex and head loses a short edge's direction.
+  const Vec2 along = f.length > 0.0 ? Vec2(Vec2(-side.apex_x, side.apex_y) / f.length)
+                                    : Vec2((apex - head).normalized());
+  return {entered,
+          f.length,
+          apex,
+          {left, left_length, apex, left_length > 0.0 ? Vec2(-apex / left_length) : Vec2(0.0, 0.0)},
+          {right, side.length, head, along}};
+}
+
+void ExactGeodesics::State::spread(const Facet& facet, const Fan& fan) {
+  const Index left = facet.left.half_edge;
   const Vec2& s = fan.source;
   const double sigma = lists.sigma(fan.root);
-  const Vec2 c(f.apex_x, f.apex_y);
-  const Vec2 to_apex = c - s;
+  const Vec2& c = facet.apex;
+  const Vec2 to_apex = between(s, c);
   // > 0: the apex lies to the left of the ray.
   const double from_left = cross(fan.left, to_apex);
   const double from_right = cross(fan.right, to_apex);
@@ -142,9 +166,9 @@ void ExactGeodesics::State::spread(const Fan& fan) {
     // Just outside by rounding: around where the ray comes in, which is never too short.
     const Vec2& ray = reaches_left ? fan.right : fan.left;
     const double off = std::abs(reaches_left ? from_right : from_left);
-    if (off <= 1e-6 * ray.dot(to_apex) && ray.y() > 0.0) {
+    if (off <= 1e-6 * dot(ray, to_apex) && ray.y() > 0.0) {
       const double along = -s.y() / ray.y();
-      seen_from = Vec2(std::clamp(s.x() + along * ray.x(), 0.0, f.length), 0.0);
+      seen_from = Vec2(std::clamp(s.x() + along * ray.x(), 0.0, facet.length), 0.0);
       reached = sigma + (seen_from - s).norm() + (c - seen_from).norm();
     }
   }
@@ -154,25 +178,26 @@ void ExactGeodesics::State::spread(const Fan& fan) {
         surface.start_angles[static_cast<std::size_t>(left)] +
         std::atan2(std::max(cross(-c, seen_from - c), 0.0), (-c).dot(seen_from - c));
 
-  // Part of an edge that leaves the face at `tail` and runs along unit vector e, between the rays
-  // that meet it at `begin` and `end`.
-  const auto pass_on = [&](Index h, const Vec2& tail, const Vec2& e, double begin, double end,
-                           const Vec2& left_ray, const Vec2& right_ray) {
-    const double length = frame(h).length;
+  // Part of a side between the rays that meet it at `begin` and `end`.
+  const auto pass_on = [&](const Facet::Side& side, double begin, double end, const Vec2& left_ray,
+                           const Vec2& right_ray) {
+    const double length = side.length;
     if (!(length > 0.0)) return;
-    const double x = e.dot(s - tail);
-    const double y = cross(e, s - tail);
+    const Vec2& e = side.along;
+    const Vec2 from_tail = between(side.tail, s);
+    const double x = dot(e, from_tail);
+    const double y = cross(e, from_tail);
     // A source that all but lies on the edge sees a wide fan through a narrow window: its rays go
     // on into the next face.
-    const Index twin = half_edges.twin(h);
     if (y < kOnTheEdge * length && end - begin < kOnTheEdge * length && x > 0.0 && x < length) {
       constexpr int kDeepest = 16;
+      const Index twin = half_edges.twin(side.half_edge);
       if (twin >= 0 && fan.depth < kDeepest)
-        spread({twin, Vec2(length - x, -std::max(y, 0.0)),
-                Vec2(-e.dot(left_ray), -cross(e, left_ray)),
+        spread(this->facet(twin),
+               {Vec2(length - x, -std::max(y, 0.0)), Vec2(-e.dot(left_ray), -cross(e, left_ray)),
                 Vec2(-e.dot(right_ray), -cross(e, right_ray)), fan.root, fan.depth + 1});
     }
-    add_window(h, begin, end, x, y, fan.root);
+    add_window(side.half_edge, begin, end, x, y, fan.root);
   };
   if (reaches_left) {
     // Where a ray meets the edge, from 0 at the tail of `entered` to 1 at the apex.
@@ -180,23 +205,17 @@ void ExactGeodesics::State::spread(const Fan& fan) {
       const double run = cross(c, ray);
       return run > 0.0 ? std::clamp(cross(s, ray) / run, 0.0, 1.0) : 1.0;
     };
-    const double length = frame(left).length;
-    if (length > 0.0)
-      pass_on(left, c, -c / length, reaches_right ? 0.0 : length * (1.0 - hit(fan.right)),
-              length * (1.0 - hit(fan.left)), fan.left, reaches_right ? to_apex : fan.right);
+    const double length = facet.left.length;
+    pass_on(facet.left, reaches_right ? 0.0 : length * (1.0 - hit(fan.right)),
+            length * (1.0 - hit(fan.left)), fan.left, reaches_right ? to_apex : fan.right);
   }
   if (reaches_right) {
-    const Vec2 head(f.length, 0.0);
-    const EdgeFrame& side = frame(right);
-    // From the edge's own frame: the difference of apex and head loses a short edge's direction.
-    const Vec2 e = f.length > 0.0 ? Vec2(Vec2(-side.apex_x, side.apex_y) / f.length)
-                                  : Vec2((c - head).normalized());
+    const double length = facet.right.length;
     const auto hit = [&](const Vec2& ray) {
-      const double run = side.length * cross(ray, e);
-      return run > 0.0 ? std::clamp(cross(ray, s - head) / run, 0.0, 1.0) : 1.0;
+      const double run = length * cross(ray, facet.right.along);
+      return run > 0.0 ? std::clamp(cross(ray, between(facet.right.tail, s)) / run, 0.0, 1.0) : 1.0;
     };
-    const double length = side.length;
-    pass_on(right, head, e, length * hit(fan.right), reaches_left ? length : length * hit(fan.left),
+    pass_on(facet.right, length * hit(fan.right), reaches_left ? length : length * hit(fan.left),
             reaches_left ? to_apex : fan.left, fan.right);
   }
 }
@@ -250,8 +269,8 @@ void ExactGeodesics::State::leave_vertex(Index v) {
           const double turn = angle - a0 - foot;
           return {-std::sin(turn), std::cos(turn)};
         };
-        spread({half_edges.twin(opposite), Vec2(f.length - f.apex_x, -f.apex_y), ray(to), ray(from),
-                root, 1});
+        spread(facet(half_edges.twin(opposite)),
+               {Vec2(f.length - f.apex_x, -f.apex_y), ray(to), ray(from), root, 1});
         add_window(opposite, 0.0, f.length, f.apex_x, f.apex_y, root);
         return;
       }
@@ -276,6 +295,7 @@ void ExactGeodesics::State::leave_vertex(Index v) {
       send(low - total, high - total);
     }
   }
+  merge_strays();
 }
 
 void ExactGeodesics::State::start(Index number) {
@@ -299,8 +319,7 @@ void ExactGeodesics::State::start(Index number) {
       }
       if (h == own_edge || frame(h).length == 0.0) continue;
       const Vec3 along = (mesh.corner(face, (k + 1) % 3) - mesh.corner(face, k)) / frame(h).length;
-      add_window(h, 0.0, frame(h).length, to_tail.dot(along), to_tail.cross(along).norm(),
-                 root);
+      add_window(h, 0.0, frame(h).length, to_tail.dot(along), to_tail.cross(along).norm(), root);
     }
   };
   if (site.kind == Site::Kind::face) {
@@ -344,6 +363,7 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   complete = true;
 
   for (std::size_t i = 0; i < sources.size(); ++i) start(static_cast<Index>(i));
+  merge_strays();
   std::sort(face_sources.begin(), face_sources.end());
 
   const std::size_t most = options.most_windows != 0

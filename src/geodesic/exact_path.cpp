@@ -194,9 +194,9 @@ std::size_t ExactGeodesics::windows_made() const {
 std::size_t ExactGeodesics::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   const State& s = *state_;
-  return s.lists.memory_bytes() + bytes(s.heap) + bytes(s.edge_keys) + bytes(s.distances) + bytes(s.arrival_angles) +
-         bytes(s.arrived_from) + bytes(s.vertex_sources) + bytes(s.is_watched) +
-         bytes(s.surface.frames) + bytes(s.surface.edge_half_edges) +
+  return s.lists.memory_bytes() + bytes(s.heap) + bytes(s.edge_keys) + bytes(s.distances) +
+         bytes(s.arrival_angles) + bytes(s.arrived_from) + bytes(s.vertex_sources) +
+         bytes(s.is_watched) + bytes(s.surface.frames) + bytes(s.surface.edge_half_edges) +
          bytes(s.surface.start_angles) + bytes(s.surface.corner_angles) +
          bytes(s.surface.total_angles) + bytes(s.surface.fan_begin) + bytes(s.surface.fan) +
          bytes(s.surface.bends);

@@ -39,10 +39,23 @@ struct ExactGeodesics::State {
     }
   };
 
-  /// What comes in over half-edge `entered`, in its frame: all between two rays from a source below
-  /// the edge.
-  struct Fan {
+  /// The face behind half-edge `entered`, in its frame.
+  struct Facet {
+    struct Side {
+      Index half_edge;
+      double length;
+      Vec2 tail;
+      Vec2 along;  // of length 1
+    };
     Index entered;
+    double length;
+    Vec2 apex;
+    Side left;   // apex to tail
+    Side right;  // head to apex
+  };
+
+  /// What comes in over a facet's edge: all between two rays from a source below the edge.
+  struct Fan {
     Vec2 source;
     Vec2 left;
     Vec2 right;
@@ -55,13 +68,14 @@ struct ExactGeodesics::State {
   WindowLists lists;
   std::vector<Entry> heap;
   std::vector<double> edge_keys;  // #E, of the edge's entry in the heap; kInfinity: it has none
-  // Windows being made, for the two edges behind the one that is sent on.
+  // Windows made but not yet on their edges: in order on the edges behind the one that is sent on,
+  // and others.
   struct Batch {
     Index edge = kNone;
-    std::vector<Window> windows;
+    WindowStack windows;
   };
   std::array<Batch, 2> batches;
-  std::vector<Window> leaving;
+  std::vector<std::pair<Index, Window>> strays;
   std::vector<double> distances;         // #V
   std::vector<double> arrival_angles;    // #V, around the vertex, of the way it was reached
   std::vector<Index> arrived_from;       // #V: a vertex along an edge, kThroughFaces, kNone
@@ -84,9 +98,11 @@ struct ExactGeodesics::State {
   bool reach_vertex(Index v, double distance, Index from);
   void leave_vertex(Index v);
   void send_on(Index edge);
-  void spread(const Fan& fan);
+  Facet facet(Index entered) const;
+  void spread(const Facet& facet, const Fan& fan);
   void add_window(Index h, double begin, double end, double x, double y, Index root);
-  void merge(Index edge, double length, std::span<const Window> windows);
+  void merge(Index edge, std::span<const Window> windows);
+  void merge_strays();
 
   /// Position in the frame of half-edge h of a point of its face.
   Vec2 in_frame(Index h, const SurfacePoint& p) const;

@@ -32,11 +32,20 @@ struct Segments {
 
 // Where on an edge the newer window is nearer than the older.
 struct Comparison {
+  Comparison(const Window& newer_in, double newer_sigma, const Window& older_in, double older_sigma,
+             double edge_length)
+      : newer(newer_in),
+        older(older_in),
+        offset(newer_sigma - older_sigma),
+        farther_sigma(std::max(newer_sigma, older_sigma)),
+        length(edge_length) {}
+
   const Window& newer;
   const Window& older;
-  double offset;  // the newer source's own distance less the older's
-  double least_width;
-  double tie;
+  double offset;
+  double farther_sigma;
+  double length;
+  double tie = 0.0;
 
   double difference(double x) const { return offset + (newer.to_source(x) - older.to_source(x)); }
   int sign(double g) const { return g < -tie ? -1 : g > tie ? 1 : 0; }
@@ -45,7 +54,7 @@ struct Comparison {
   // Illinois rule.
   double zero(double a, double ga, double b, double gb) const {
     int side = 0;
-    for (int i = 0; i < 60 && b - a > least_width; ++i) {
+    for (int i = 0; i < 60 && b - a > kLeastWidth * length; ++i) {
       const double x = std::clamp((a * gb - b * ga) / (gb - ga), a, b);
       const double g = difference(x);
       if (std::abs(g) <= tie) return x;
@@ -62,8 +71,34 @@ struct Comparison {
     return 0.5 * (a + b);
   }
 
-  void split(double a, double b, Segments& out) const {
-    const double ga = difference(a);
+  // The difference at a.
+  double begin_at(double a) {
+    const double newer_a = newer.to_source(a);
+    const double older_a = older.to_source(a);
+    tie = kTie * (farther_sigma + std::max(newer_a, older_a) + length);
+    return offset + (newer_a - older_a);
+  }
+
+  // Where the older window keeps what lies between a and the result, and the newer has the rest up
+  // to b: the common case. Negative in any other.
+  double cut(double a, double b) {
+    const double ga = begin_at(a);
+    if (ga < -tie) return -1.0;
+    const double gb = difference(b);
+    if (gb < -tie) return ga > tie ? zero(a, ga, b, gb) : -1.0;
+    return turns(a, b) ? -1.0 : b;
+  }
+
+  // Whether the difference has an extremum between a and b, which lies where the line through both
+  // sources meets the edge.
+  bool turns(double a, double b) const {
+    const double run = older.y - newer.y;
+    const double at = newer.x * older.y - older.x * newer.y;
+    return (at > a * run) != (at > b * run);
+  }
+
+  void split(double a, double b, Segments& out) {
+    const double ga = begin_at(a);
     const double gb = difference(b);
     const int sa = sign(ga);
     const int sb = sign(gb);
@@ -74,11 +109,9 @@ struct Comparison {
       return;
     }
     const int both = sa + sb;
-    // The difference turns once at most: where the line through both sources meets the edge.
-    const double run = older.y - newer.y;
-    const double at = newer.x * older.y - older.x * newer.y;
-    if (run != 0.0 && (run > 0.0 ? at > a * run && at < b * run : at < a * run && at > b * run)) {
-      const double x = std::clamp(at / run, a, b);
+    if (turns(a, b)) {
+      const double x =
+          std::clamp((newer.x * older.y - older.x * newer.y) / (older.y - newer.y), a, b);
       const double gx = difference(x);
       const int sx = sign(gx);
       if (sx * both < 0) {
@@ -153,14 +186,16 @@ void WindowLists::store(List& list) {
     list.size_class = static_cast<std::uint32_t>(size_class);
   }
   list.count = static_cast<std::uint32_t>(count);
-  std::copy(left_.begin(), left_.end(), list.first);
-  std::copy(right_.rbegin(), right_.rend(), list.first + left_.size());
+  std::copy(left_.windows().begin(), left_.windows().end(), list.first);
+  std::copy(right_.windows().rbegin(), right_.windows().rend(), list.first + left_.size());
 }
 
-WindowLists::Merged WindowLists::merge(Index edge, double edge_length, std::span<const Window> windows) {
+WindowLists::Merged WindowLists::merge(Index edge, double edge_length,
+                                       std::span<const Window> windows) {
   List& list = lists_[static_cast<std::size_t>(edge)];
   left_.clear();
-  right_.assign(std::reverse_iterator(list.first + list.count), std::reverse_iterator(list.first));
+  right_.clear();
+  for (std::size_t i = list.count; i-- > 0;) right_.push(list.first[i]);
   Merged merged;
   for (const Window& w : windows) insert(edge_length, w, merged);
   store(list);
@@ -169,35 +204,52 @@ WindowLists::Merged WindowLists::merge(Index edge, double edge_length, std::span
 
 void WindowLists::insert(double edge_length, const Window& window, Merged& merged) {
   const double least = kLeastWidth * edge_length;
+  const double window_sigma = sigma(window.root);
   double open = window.begin;  // the new window owns what lies between here and the next older one
   const auto close = [&](double end) {
     if (end - open <= least) return;
-    left_.push_back(window);
-    left_.back().begin = open;
-    left_.back().end = end;
+    left_.push(window, open, end);
     ++merged.pieces;
-    merged.nearest = std::min(merged.nearest, sigma(window.root) + left_.back().nearest());
+    // Its nearest point, squared until it counts.
+    const double nearer = merged.nearest - window_sigma;
+    const double off = std::max({window.x - end, open - window.x, 0.0});
+    const double squared = off * off + window.y * window.y;
+    if (nearer > 0.0 && squared < nearer * nearer)
+      merged.nearest = window_sigma + std::sqrt(squared);
   };
 
-  while (!right_.empty() && right_.back().end <= window.begin) {
-    left_.push_back(right_.back());
-    right_.pop_back();
+  while (!right_.empty() && right_.top().end <= window.begin) {
+    left_.push(right_.top());
+    right_.pop();
   }
-  while (!left_.empty() && left_.back().end > window.begin) {
-    right_.push_back(left_.back());
-    left_.pop_back();
+  while (!left_.empty() && left_.top().begin > window.begin) {
+    right_.push(left_.top());
+    left_.pop();
   }
-  while (!right_.empty() && right_.back().begin < window.end) {
-    const Window older = right_.back();
-    right_.pop_back();
+  bool is_left = !left_.empty() && left_.top().end > window.begin;
+  // Mostly it only meets the end of the one before it.
+  if (is_left && left_.top().end <= window.end && left_.top().end - window.begin > least) {
+    Window& older = left_.top();
+    const double cut = Comparison(window, window_sigma, older, sigma(older.root), edge_length)
+                           .cut(window.begin, older.end);
+    if (cut >= 0.0 && cut - older.begin > least) {
+      older.end = cut;
+      open = cut;
+      is_left = false;
+    }
+  }
+  while (is_left || (!right_.empty() && right_.top().begin < window.end)) {
+    WindowStack& from = is_left ? left_ : right_;
+    is_left = false;
+    const Window& top = from.top();
+    from.pop();
+    const Window older{top.begin, top.end, top.x, top.y, top.root, top.forward, top.waits};
     const double a = std::max(window.begin, older.begin);
     const double b = std::min(window.end, older.end);
     Segments segments;
     if (older.begin < a - least) segments.add(older.begin, a, false);
     if (b - a > least) {
-      const double scale = std::max(distance(older, a), distance(window, a)) + edge_length;
-      Comparison{window, older, sigma(window.root) - sigma(older.root), least, kTie * scale}.split(a, b,
-                                                                                        segments);
+      Comparison(window, window_sigma, older, sigma(older.root), edge_length).split(a, b, segments);
     } else {
       segments.add(a, b, false);
     }
@@ -207,9 +259,7 @@ void WindowLists::insert(double edge_length, const Window& window, Merged& merge
       const Segment& s = segments.items[static_cast<std::size_t>(k)];
       if (s.newer || (s.end - s.begin <= least && segments.count > 1)) continue;
       close(s.begin);
-      left_.push_back(older);
-      left_.back().begin = s.begin;
-      left_.back().end = s.end;
+      left_.push(older, s.begin, s.end);
       open = std::max(open, s.end);
     }
   }

@@ -14,19 +14,47 @@ namespace mimicry::geodesic {
 /// (Mitchell, Mount and Papadimitriou 1987). Coordinates are along the edge from its tail (x) and
 /// away from it (y >= 0, on the side that the source lies on after unfolding).
 struct Window {
-  double begin = 0.0;
-  double end = 0.0;
-  double x = 0.0;  ///< the source
-  double y = 0.0;
-  Index root = 0;        ///< number of the source's own distance, `WindowLists::sigma`
-  bool forward = false;  ///< goes on over the edge's forward half-edge
-  bool waits = true;     ///< has not been sent on yet
+  double begin;
+  double end;
+  double x;  ///< the source
+  double y;
+  Index root;    ///< number of the source's own distance, `WindowLists::sigma`
+  bool forward;  ///< goes on over the edge's forward half-edge
+  bool waits;    ///< has not been sent on yet
 
   double to_source(double at) const { return std::sqrt((at - x) * (at - x) + y * y); }
-  /// The least distance from the source on the window.
-  double nearest() const { return x < begin ? to_source(begin) : x > end ? to_source(end) : y; }
 };
 static_assert(sizeof(Window) == 40);
+
+/// Windows on top of each other. Fields are written and read one by one: a window read as a whole
+/// right after its fields were written would wait for them.
+class WindowStack {
+ public:
+  bool empty() const { return count_ == 0; }
+  std::size_t size() const { return count_; }
+  Window& top() { return windows_[count_ - 1]; }
+  void pop() { --count_; }
+  void clear() { count_ = 0; }
+  void push(const Window& w) { push(w, w.begin, w.end); }
+  /// Part of a window.
+  void push(const Window& w, double begin, double end) {
+    if (count_ == windows_.size()) windows_.resize(2 * count_ + 16);
+    Window& top = windows_[count_++];
+    top.begin = begin;
+    top.end = end;
+    top.x = w.x;
+    top.y = w.y;
+    top.root = w.root;
+    top.forward = w.forward;
+    top.waits = w.waits;
+  }
+  std::span<Window> windows() { return {windows_.data(), count_}; }
+  std::size_t memory_bytes() const { return windows_.capacity() * sizeof(Window); }
+
+ private:
+  std::vector<Window> windows_;
+  std::size_t count_ = 0;
+};
 
 /// The windows of all edges, on each edge side by side without overlap: where two would overlap
 /// each keeps the part where it is nearer.
@@ -84,8 +112,8 @@ class WindowLists {
   std::vector<std::vector<Window*>> free_;  // places given back, by size class
   // The list being merged, cut in two where the next window goes in: to the left in order, to the
   // right backwards.
-  std::vector<Window> left_;
-  std::vector<Window> right_;
+  WindowStack left_;
+  WindowStack right_;
 };
 
 }  // namespace mimicry::geodesic

@@ -35,11 +35,13 @@ struct ExactPath {
 
 /// Exact geodesic distances from any number of surface points, by windows on edges (Mitchell, Mount
 /// and Papadimitriou 1987; made practical by Surazhsky, Surazhsky, Kirsanov, Gortler and Hoppe
-/// 2005), pruned with the distances of vertices (Xin and Wang 2009). Where we differ: a window is
-/// cut where it is not nearest also in the rare case of two cuts, and distances in a sliver that
-/// rounding has left without a window are measured around the ends of its neighbours. Boundary and
-/// non-manifold edges are not crossed; faces without area and edges without length are allowed.
-/// Refers to mesh and half_edges, which must outlive it and not change.
+/// 2005), pruned with the distances of vertices (Xin and Wang 2009). The windows of an edge are
+/// sent on together, as those of a triangle are by Qin et al. (2016), so that lists are merged in
+/// one pass and the queue holds edges. Where we differ: a window is cut where it is not nearest
+/// also in the rare case of two cuts, and distances in a sliver that rounding has left without a
+/// window are measured around the ends of its neighbours. Boundary and non-manifold edges are not
+/// crossed; faces without area and edges without length are allowed. Refers to mesh and half_edges,
+/// which must outlive it and not change.
 class ExactGeodesics {
  public:
   /// O(#V + #F). Throws Error(invalid_input) where a vertex is not finite.
