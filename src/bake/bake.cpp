@@ -272,6 +272,10 @@ Embedding bake(const TriangleMesh& mesh, const BakeOptions& options, int threads
     out.positions[at(renumber(v))] = unit.to_target(shell.positions[at(v)]);
     put_value(renumber(v), v);
   }
+  // To the last bit, so that tetrahedra that overlap have the same coordinates.
+  for (std::size_t k = 0; k < shell.copy_of.size(); ++k)
+    out.positions[count - shell.copy_of.size() + k] = out.positions[at(renumber(shell.copy_of[k]))];
+  out.overlapping_tets = shell.overlapping_tets;
   out.tets.reserve(shell.tets.size());
   for (const Tet& t : shell.tets)
     out.tets.push_back({renumber(t[0]), renumber(t[1]), renumber(t[2]), renumber(t[3])});

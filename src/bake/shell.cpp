@@ -7,6 +7,7 @@
 
 #include "bake/octree.h"
 #include "bake/recovery.h"
+#include "bake/sheets.h"
 #include "bake/unit_mesh.h"
 
 namespace mimicry::bake {
@@ -111,6 +112,7 @@ Shell make_shell(const TriangleMesh& mesh, const ShellOptions& options, Executor
   shell.crossing_faces = recovery.crossing_faces();
   shell.hit_a_cap = shell.hit_a_cap || recovery.hit_shortest();
   keep_near(shell, delaunay, distances, recovery.ties(), mesh.vertex_count(), options.offset);
+  separate_sheets(shell, surface, executor);
   return shell;
 }
 

@@ -44,6 +44,8 @@ Embedding checked(Embedding e, const spatial::Target& target) {
     if (!std::isfinite(e.values[i]))
       refuse("the value of vertex " + std::to_string(i / static_cast<std::size_t>(e.dimension)) +
              " is not finite");
+  if (e.overlapping_tets < 0 || static_cast<std::size_t>(e.overlapping_tets) > e.tets.size())
+    refuse("its sizes contradict each other");
   for (std::size_t t = 0; t < e.tets.size(); ++t)
     for (const Index v : e.tets[t])
       if (v < 0 || v >= e.vertex_count())
@@ -105,33 +107,57 @@ SmoothProjector::SmoothProjector(Embedding embedding, const spatial::Target& tar
       shell_(static_cast<Index>(embedding_.tets.size()),
              [this](Index tet) { return tetrahedron(tet); }) {}
 
-ShellPoint SmoothProjector::locate(const Vec3& y, Index tet_hint) const {
-  ShellPoint best;
+namespace {
+
+// The best of the tetrahedra met so far, and those as good: where parts of the surface have a
+// tetrahedron each in one place. Their coordinates are the same to the last bit.
+struct Places {
+  static constexpr std::size_t kMost = 8;
+  std::array<ShellPoint, kMost> places;
+  std::size_t count = 0;
+
+  void start_over() { count = 0; }
+  void add(const ShellPoint& p) {
+    if (count == kMost) {
+      if (p.tet > places[kMost - 1].tet) return;
+      --count;
+    }
+    std::size_t i = count++;
+    for (; i > 0 && places[i - 1].tet > p.tet; --i) places[i] = places[i - 1];
+    places[i] = p;
+  }
+};
+
+}  // namespace
+
+ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
+  Places best;
   double depth = -kOnFace;
   const auto consider = [&](Index tet, const Tetrahedron& t) {
     const Eigen::Vector4d bary = t.barycentric(y);
     const double least = bary.minCoeff();
-    if (least < depth || (least == depth && best.tet != kNone && tet > best.tet)) return false;
-    best = {tet, bary};
+    if (!(least >= depth)) return false;
+    if (least > depth) best.start_over();
+    best.add({tet, bary});
     depth = least;
-    return least > kOnFace;  // then it is in no other
+    return least > kOnFace && !overlaps(tet);  // then it is in no other
   };
   bool is_in_flat = false;
-  const bool is_hint = tet_hint >= 0 && tet_hint < shell_.size();
+  const bool is_hint = hint.tet >= 0 && hint.tet < shell_.size() && !overlaps(hint.tet);
   if (is_hint) {
-    const Tetrahedron t = tetrahedron(tet_hint);
-    if (t.is_flat || !consider(tet_hint, t)) {
-      best.tet = kNone;
+    const Tetrahedron t = tetrahedron(hint.tet);
+    if (t.is_flat || !consider(hint.tet, t)) {
+      best.start_over();
       depth = -kOnFace;
     }
   }
-  if (best.tet == kNone)
+  if (best.count == 0)
     shell_.containing(y, [&](Index tet, const Tetrahedron& t) {
       if (!t.is_flat) return consider(tet, t);
       is_in_flat = true;
       return false;
     });
-  if (best.tet == kNone && is_in_flat) {
+  if (best.count == 0 && is_in_flat) {
     // In the box of a flat one at least. The flat ones of the shell's rim bring in a sliver of the
     // outside, no thicker than they are.
     double near_flat2 = kInfinity;
@@ -151,18 +177,39 @@ ShellPoint SmoothProjector::locate(const Vec3& y, Index tet_hint) const {
       shell_.nearest(y, kInfinity, [&](Index tet, const Tetrahedron& t, double bound2) {
         if (t.is_flat) return bound2;
         const double d2 = t.nearest(y, bary);
-        if (!(d2 < distance2 || (d2 == distance2 && tet < best.tet))) return bound2;
+        if (!(d2 <= distance2)) return bound2;
+        if (d2 < distance2) best.start_over();
+        best.add({tet, bary});
         distance2 = d2;
-        best = {tet, bary};
         return std::min(bound2, d2);
       });
     }
   }
-  if (best.tet != kNone) {
-    best.bary = best.bary.cwiseMax(0.0);
-    best.bary /= best.bary.sum();
+  if (best.count == 0) return {};
+  ShellPoint place = overlaps(best.places[best.count - 1].tet)
+                         ? of_nearest_part(y, {best.places.data(), best.count}, hint.face)
+                         : best.places[0];
+  place.bary = place.bary.cwiseMax(0.0);
+  place.bary /= place.bary.sum();
+  return place;
+}
+
+// Tells the parts by their places in the embedding.
+ShellPoint SmoothProjector::of_nearest_part(const Vec3& y, std::span<const ShellPoint> places,
+                                            Index face_hint) const {
+  if (places.size() == 1) return places[0];
+  const auto closest = target_->closest_point(y, kInfinity, face_hint);
+  assert(closest);
+  const phong::Vec8 on_surface = surface_.position(closest->surface);
+  const ShellPoint* best = nullptr;
+  double distance2 = kInfinity;
+  for (const ShellPoint& p : places) {
+    const double d2 = (lift(p) - on_surface).squaredNorm();
+    if (!(d2 < distance2)) continue;
+    distance2 = d2;
+    best = &p;
   }
-  return best;
+  return best ? *best : places[0];
 }
 
 phong::Vec8 SmoothProjector::lift(const ShellPoint& p) const {
@@ -181,7 +228,7 @@ phong::Vec8 SmoothProjector::lift(const ShellPoint& p) const {
 template <class Project>
 SmoothPoint SmoothProjector::resolve(const Vec3& y, const ScpOptions& options, ScpHint& hint,
                                      Project&& project) const {
-  const ShellPoint place = locate(y, hint.tet);
+  const ShellPoint place = locate(y, hint);
   hint.tet = place.tet;
   SmoothPoint result;
   if (place.tet == kNone) {

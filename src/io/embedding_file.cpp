@@ -74,6 +74,7 @@ void each_number(auto& e, Visit&& visit) {
   visit(q.stress);
   for (auto& d : q.distortion) visit(d);
   visit(q.sliver_percent);
+  visit(e.overlapping_tets);
 }
 
 template <class T>

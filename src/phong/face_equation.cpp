@@ -14,6 +14,7 @@ constexpr double kInside = 1e-9;
 constexpr double kMargin = 1e-7;
 constexpr double kResidual = 1e-12;  // of the model's size, for a solution
 constexpr int kMostSteps = 16;
+constexpr int kMostReturns = 6;  // into the triangle, of a step out of it
 constexpr int kMostPieces = 128;
 constexpr int kDeepest = 12;
 constexpr int kSweeps = 10;
@@ -24,6 +25,14 @@ constexpr std::size_t next(std::size_t i) {
 
 double cross(const Vec2& a, const Vec2& b) {
   return a[0] * b[1] - a[1] * b[0];
+}
+
+// S vanishes on an ellipse around the triangle, through its corners. Away from it the parts of the
+// edges in T(b) stay below about 5.
+bool is_regular(const Vec3& b) {
+  const double s = b[0] * b[1] + b[1] * b[2] + b[2] * b[0];
+  const Vec3 size = b.cwiseAbs();
+  return b.minCoeff() >= -0.3 && s > 0.2 * (size.sum() - size.maxCoeff());
 }
 
 // All vectors lie in one open half-plane, kMargin away from its edge. The cone of those so far is
@@ -101,11 +110,9 @@ FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basi
 }
 
 FaceEquation::FaceEquation(const FaceFrames& frames, const std::array<Vec2, 3>& w) {
-  // u[i][l] = T_i (y - x_l).
-  std::array<std::array<Vec2, 3>, 3> u;
+  auto& u = u_;
   for (std::size_t i = 0; i < 3; ++i)
     u[i] = {w[i], w[i] - frames.offset[i][0], w[i] - frames.offset[i][1]};
-  for (std::size_t i = 0; i < 3; ++i) at_corner_[i] = u[i][i];
 
   mixed_.fill(Vec2::Zero());
   for (std::size_t i = 0; i < 3; ++i) {
@@ -156,6 +163,7 @@ FaceEquation::Value FaceEquation::evaluate(const Vec3& b) const {
 }
 
 std::optional<Vec3> FaceEquation::newton(Vec3 b, double size) const {
+  int returns = 0;
   for (int step = 0; step < kMostSteps; ++step) {
     const Value value = evaluate(b);
     const double det = value.jacobian.determinant();
@@ -173,12 +181,19 @@ std::optional<Vec3> FaceEquation::newton(Vec3 b, double size) const {
       return Vec3(b / b.sum());
     }
     if (length > 0.5) move *= 0.5 / length;
-    b[1] += move[0];
-    b[2] += move[1];
+    const Vec3 way(-move[0] - move[1], move[0], move[1]);
+    Vec3 to = b + way;
+    if (!is_regular(to)) {
+      // Past a corner, it may be, near which the solution lies: most of the way to the triangle's
+      // boundary, from where the corner is seen more clearly.
+      double part = 0.9;
+      for (int k = 0; k < 3; ++k)
+        if (way[k] < 0.0) part = std::min(part, -0.9 * b[k] / way[k]);
+      if (!(part > 0.0) || ++returns > kMostReturns) return std::nullopt;
+      to = b + part * way;
+    }
+    b = to;
     b[0] = 1.0 - b[1] - b[2];
-    // S vanishes on a circle around the triangle, through its corners.
-    const double s = b[0] * b[1] + b[1] * b[2] + b[2] * b[0];
-    if (!(s > 1e-14) || b.minCoeff() < -0.3) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -205,7 +220,7 @@ FaceEquation::Solutions FaceEquation::solve(double size) const {
   Solutions solutions;
   // At a corner f depends on the direction; what it depends on must vanish.
   for (std::size_t i = 0; i < 3; ++i)
-    if (at_corner_[i].squaredNorm() <= 1e-26 * size * size)
+    if (u_[i][i].squaredNorm() <= 1e-26 * size * size)
       solutions.b[solutions.count++] = Vec3::Unit(static_cast<int>(i));
   if (solutions.count > 0) return solutions;
   std::array<Vec2, 12> c;
@@ -221,8 +236,39 @@ FaceEquation::Solutions FaceEquation::solve(double size) const {
     search_pieces(size, solutions);
   } else if (const auto b = newton(Vec3::Constant(1.0 / 3.0), size)) {
     solutions.b[solutions.count++] = *b;
+    return solutions;
   }
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const auto start = beside_corner(i))
+      if (const auto b = newton(*start, size)) solutions.add(*b);
   return solutions;
+}
+
+// Where a solution near corner i must be. From afar Newton's method passes it, and beyond a corner
+// f has no meaning; beside the corner T(b) is T_i, turned, and f nearly linear.
+std::optional<Vec3> FaceEquation::beside_corner(std::size_t i) const {
+  const std::size_t j = next(i), k = next(j);
+  const Vec2 to_j = u_[i][i] - u_[i][j], to_k = u_[i][i] - u_[i][k];
+  const double det = cross(to_j, to_k);
+  Vec3 b = Vec3::Zero();
+  b[static_cast<int>(j)] = cross(u_[i][i], to_k);
+  b[static_cast<int>(k)] = cross(to_j, u_[i][i]);
+  if (det < 0.0) b = -b;
+  constexpr double kBeside = 0.3, kOutside = 2.0, kInward = 0.05;
+  const double far = b.maxCoeff();
+  if (!(far <= kBeside * std::abs(det) && b.minCoeff() >= -kOutside * far && far > 0.0))
+    return std::nullopt;
+  b[static_cast<int>(j)] = std::max(b[static_cast<int>(j)], kInward * far);
+  b[static_cast<int>(k)] = std::max(b[static_cast<int>(k)], kInward * far);
+  b /= std::abs(det);
+  b[static_cast<int>(i)] = 1.0 - b[static_cast<int>(j)] - b[static_cast<int>(k)];
+  return b;
+}
+
+void FaceEquation::Solutions::add(const Vec3& solution) {
+  for (std::size_t i = 0; i < count; ++i)
+    if ((b[i] - solution).squaredNorm() < kInside * kInside) return;
+  if (count < kMost) b[count++] = solution;
 }
 
 namespace {
@@ -301,11 +347,6 @@ void FaceEquation::search_pieces(double size, Solutions& solutions) const {
     set(2, 1, 1, mixed_[i] / 12.0);
   }
 
-  const auto add = [&](const Vec3& b) {
-    for (std::size_t i = 0; i < solutions.count; ++i)
-      if ((solutions.b[i] - b).squaredNorm() < kInside * kInside) return;
-    if (solutions.count < Solutions::kMost) solutions.b[solutions.count++] = b;
-  };
   // Depth first; one branch waits at each level.
   std::array<Piece, kDeepest + 2> stack;
   std::size_t top = 0;
@@ -316,7 +357,7 @@ void FaceEquation::search_pieces(double size, Solutions& solutions) const {
     const bool is_last = piece.depth == kDeepest;
     if (is_last || (piece.depth > 0 && is_nearly_linear(piece.corners))) {
       const Vec3 middle = (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
-      if (const auto b = newton(middle, size)) add(*b);
+      if (const auto b = newton(middle, size)) solutions.add(*b);
       continue;
     }
     const std::array<Piece, 2> halves = piece.halves();

@@ -268,6 +268,33 @@ TEST(FaceEquation, NoSolutionIsLost) {
   EXPECT_GT(solutions, 300);
 }
 
+TEST(FaceEquation, NoSolutionIsLostBesideACorner) {
+  // Points are made of their solution: beside a corner, which Newton's method reaches from afar and
+  // passes, and off the surface across the tangent plane there. Where that bends much over the face
+  // a step beyond the corner is nearly as long as the way to it.
+  Random random(16);
+  for (const TriangleMesh& mesh : meshes()) {
+    const Surface s(mesh);
+    for (int i = 0; i < 1000; ++i) {
+      SurfacePoint p = s.random_point(random);
+      const double away = std::pow(10.0, random.uniform(-8.0, -1.0));
+      p.bary = (1.0 - away) * Vec3::Unit(i % 3) + away * p.bary;
+      const Basis t = s.phong.tangent_plane(p);
+      Vec8 normal;
+      for (int k = 0; k < kDimension; ++k) normal[k] = random.normal();
+      normal -= t.transpose() * (t * t.transpose()).inverse() * (t * normal);
+      const Vec8 y = s.phong.position(p) + 0.02 * random.uniform() * normal.normalized();
+      const auto found = s.phong.equation(p.face, y).solve(s.phong.size());
+      double nearest = kInfinity;
+      for (std::size_t k = 0; k < found.count; ++k)
+        nearest = std::min(nearest, (found.b[k] - p.bary).norm());
+      // Where the tangent field bends much there are pairs of solutions; one of two that are nearer
+      // to each other than this may hide the other.
+      EXPECT_LT(nearest, 0.01) << "trial " << i << ", " << away << " from the corner";
+    }
+  }
+}
+
 TEST(PhongSurface, ProjectionIsTheFootOnAPlane) {
   const TriangleMesh mesh = make_grid(6);
   const Surface s(mesh, 0.0);

@@ -18,6 +18,8 @@ struct Shell {
   std::vector<Vec3> positions;  ///< the surface's vertices first
   std::vector<Tet> tets;        ///< positively oriented
   std::vector<Tie> ties;        ///< added vertices on the surface, tied to its vertices
+  Index overlapping_tets = 0;   ///< the last so many may stand where others of them stand
+  std::vector<Index> copy_of;   ///< the last vertices stand where these stand
   /// Of the lattice: where each vertex of the surface (`row`) stands in the tetrahedra.
   std::vector<SoftConstraint> bindings;
 

@@ -54,6 +54,9 @@ struct Embedding {
 
   std::vector<Vec3> positions;             ///< #V by 3, in the mesh's frame and units
   std::vector<std::array<Index, 4>> tets;  ///< #T by 4, positively oriented in `positions`
+  /// The last so many tetrahedra may stand where others of them stand: between two parts of the
+  /// surface that are close in space and far along the surface each part has its own.
+  Index overlapping_tets = 0;
   /// #V by dimension, by rows, in the mesh's units; centred on the samples' mean, so that numbers
   /// are of the object's size wherever it stands.
   std::vector<double> values;

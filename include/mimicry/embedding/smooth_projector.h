@@ -71,10 +71,11 @@ class SmoothProjector {
   SmoothPoint weighted_average(std::span<const SurfacePoint> points,
                                std::span<const double> weights, Index face_hint = kNone) const;
 
-  /// y's tetrahedron; of several (on a common face) the one that it lies deepest in, then the
-  /// lowest. Where that is too flat for coordinates, the nearest that is not, with y drawn into it.
-  /// tet kNone outside the shell. y: finite, below 1e60.
-  ShellPoint locate(const Vec3& y, Index tet_hint = kNone) const;
+  /// y's tetrahedron; of several (on a common face) the one that it lies deepest in; of those of
+  /// several parts of the surface that of the part with the closest point; then the lowest. Where
+  /// it is too flat for coordinates, the nearest that is not, with y drawn into it. tet kNone
+  /// outside the shell. y: finite, below 1e60.
+  ShellPoint locate(const Vec3& y, const ScpHint& hint = {}) const;
   /// Its position in R^8.
   phong::Vec8 lift(const ShellPoint& p) const;
 
@@ -98,6 +99,10 @@ class SmoothProjector {
   };
 
   Tetrahedron tetrahedron(Index tet) const;
+  // Others may stand in the same place.
+  bool overlaps(Index tet) const { return tet >= shell_.size() - embedding_.overlapping_tets; }
+  ShellPoint of_nearest_part(const Vec3& y, std::span<const ShellPoint> places,
+                             Index face_hint) const;
   template <class Project>
   SmoothPoint resolve(const Vec3& y, const ScpOptions& options, ScpHint& hint,
                       Project&& project) const;

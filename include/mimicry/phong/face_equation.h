@@ -47,6 +47,8 @@ class FaceEquation {
     static constexpr std::size_t kMost = 6;
     std::array<Vec3, kMost> b;
     std::size_t count = 0;
+
+    void add(const Vec3& solution);  // once
   };
   /// size: of the whole model in the embedding, which residuals are measured against. Newton's
   /// method from the centroid serves where the Jacobian hardly changes over the triangle;
@@ -59,7 +61,9 @@ class FaceEquation {
   bool is_nearly_linear(const std::array<Vec3, 3>& corners) const;
   void search_pieces(double size, Solutions& solutions) const;
 
-  std::array<Vec2, 3> at_corner_;  // T_i (y - x_i)
+  std::optional<Vec3> beside_corner(std::size_t i) const;
+
+  std::array<std::array<Vec2, 3>, 3> u_;  // u_[i][l] = T_i (y - x_l)
   // Monomials of S f: b_i^3 b_{i+1}, b_i^3 b_{i+2}, b_i^2 b_{i+1}^2, b_i^2 b_{i+1} b_{i+2}.
   std::array<Vec2, 3> next_, previous_, square_, mixed_;
 };
