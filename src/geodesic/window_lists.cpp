@@ -169,7 +169,8 @@ Window* WindowLists::take(std::size_t size_class) {
   while (block_ < blocks_.size() && used_ + size > blocks_[block_].size) ++block_, used_ = 0;
   if (block_ == blocks_.size()) {
     const std::size_t block_size = std::max(kBlock, size);
-    blocks_.push_back({std::make_unique_for_overwrite<Window[]>(block_size), block_size});
+    // std::make_unique_for_overwrite, which libc++ 13 lacks.
+    blocks_.push_back({std::unique_ptr<Window[]>(new Window[block_size]), block_size});
   }
   Window* place = &blocks_[block_].windows[used_];
   used_ += size;

@@ -1,0 +1,37 @@
+import { creasedCorners } from '../scene/creased';
+import type { LoadedModel, ModelSource } from '../studio';
+import type { Core, MeshArrays, MeshReport } from './core';
+
+/** Faces that meet at more than this are shown with an edge. */
+const kCrease_rad = (38 / 180) * Math.PI;
+
+/** Larger files are refused before they are read. */
+export const kMostFileBytes = 600e6;
+
+/** Looks at a mesh and makes it ready to be shown. Throws an Error with a sentence where it cannot be drawn on. */
+export function prepareModel(core: Core, mesh: MeshArrays, name: string, source: ModelSource): LoadedModel {
+  if (mesh.faces.length === 0) throw new Error(`${name}: there are no triangles in it; export the model as a triangle mesh`);
+  const report = core.validate(mesh);
+  if (report.invalidVertices > 0) {
+    throw new Error(`${name}: ${count(report.invalidVertices, 'vertex has', 'vertices have')} coordinates that are not finite numbers; repair the mesh in a modelling program and export it again`);
+  }
+  if (!(report.diagonal > 0)) throw new Error(`${name}: all its vertices are in one place; export the model again`);
+  return { name, source, mesh, corners: creasedCorners(mesh.positions, mesh.faces, kCrease_rad), remarks: remarks(report) };
+}
+
+export function shapeModel(core: Core, shape: string): LoadedModel {
+  return prepareModel(core, core.shape(shape), shape, { shape });
+}
+
+function remarks(report: MeshReport): string[] {
+  const list: string[] = [];
+  if (report.nonmanifoldEdges > 0) list.push(`${count(report.nonmanifoldEdges, 'edge has', 'edges have')} three or more faces: ink does not cross them.`);
+  if (report.inconsistentEdges > 0) list.push(`At ${count(report.inconsistentEdges, 'edge', 'edges')} the faces look different ways.`);
+  if (report.degenerateFaces > 0) list.push(`${count(report.degenerateFaces, 'face has', 'faces have')} no area.`);
+  if (report.components > 1) list.push(`${report.components.toLocaleString('en')} separate parts: ink stays on the part that it starts on.`);
+  return list;
+}
+
+function count(n: number, one: string, many: string): string {
+  return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
+}

@@ -1,0 +1,350 @@
+import { kController, kHead, kPressure, kTime, kTrigger, makeFrame } from '../drawing/frame';
+import { toModel, toWorld } from '../math/similarity';
+import { rotate } from '../math/vec';
+import type { Stage } from '../scene/stage';
+import type { ThreeView } from '../scene/three_view';
+import { kInkStride } from '../scene/tube';
+import { XrHands } from '../scene/xr_hands';
+import { clampRadius, kInks, type Hand } from '../settings';
+import type { Studio } from '../studio';
+import { carryModel, stretchModel } from './grab';
+import { Hysteresis } from './hysteresis';
+
+// Buttons of the xr-standard gamepad mapping.
+const kTriggerButton = 0;
+const kSqueeze = 1;
+const kStick = 3;
+const kFirstButton = 4; // A, X
+const kSecondButton = 5; // B, Y
+/** How far the stick is pushed before it counts. */
+const kStickDead = 0.5;
+/** Thickness changes by this factor a second at full push. */
+const kStickRate = 3;
+/** The pen erases what is this near to its tip; farther away, where it points. */
+const kReach_m = 0.03;
+const kEraser_m = 0.012;
+const kLeastScale = 0.1, kMostScale = 20; // of the model's own size
+
+const kHands = ['left', 'right'] as const;
+
+interface Device {
+  hand: Hand;
+  /** Target ray: x, y, z, quaternion. */
+  pose: Float64Array;
+  before: Float64Array;
+  tracked: boolean;
+  trigger: Hysteresis;
+  value: number;
+  squeeze: Hysteresis;
+  buttons: boolean[];
+  stick: boolean;
+  selecting: boolean; // of devices without a gamepad
+  source: XRInputSource | null;
+}
+
+function device(hand: Hand): Device {
+  return {
+    hand, pose: new Float64Array(7), before: new Float64Array(7), tracked: false, trigger: new Hysteresis(), value: 0,
+    squeeze: new Hysteresis(), buttons: [], stick: false, selecting: false, source: null,
+  };
+}
+
+/** Draws with a headset's controllers. Reads poses and buttons once a frame of the headset. */
+export class XrInput {
+  private session: XRSession | null = null;
+  private readonly devices: Record<Hand, Device> = { left: device('left'), right: device('right') };
+  private readonly hands: XrHands;
+  private readonly frame = makeFrame();
+  private readonly model = new Float64Array(8);
+  private baseScale = 1;
+  private grabbed = 0; // hands that held the model in the last frame
+  private lastTime_ms = 0;
+  private readonly tip = new Float64Array(3);
+  private readonly spot = new Float64Array(3);
+  private readonly normal = new Float64Array(3);
+  private readonly axis = new Float64Array(3);
+  /** Says something that happened; a sentence. */
+  onNote: (sentence: string) => void = () => undefined;
+  onEnd: () => void = () => undefined;
+
+  constructor(private readonly stage: Stage, private readonly view: ThreeView, private readonly studio: Studio) {
+    this.hands = new XrHands();
+    stage.scene.add(this.hands.group);
+  }
+
+  get presenting(): boolean {
+    return this.session !== null;
+  }
+
+  /** Throws an Error with a sentence where the headset cannot be entered. */
+  async enter(mode: 'immersive-vr' | 'immersive-ar'): Promise<void> {
+    const xr = navigator.xr;
+    if (!xr) throw new Error('This browser has no WebXR. Open this page in the headset’s own browser.');
+    let session: XRSession;
+    try {
+      session = await xr.requestSession(mode, { requiredFeatures: ['local-floor'], optionalFeatures: ['bounded-floor', 'hand-tracking'] });
+    } catch (error) {
+      const denied = error instanceof DOMException && (error.name === 'NotAllowedError' || error.name === 'SecurityError');
+      throw new Error(denied
+        ? 'The headset was not entered because permission was denied. Allow virtual reality for this page in the browser’s site settings, and press the button again.'
+        : 'The headset did not start. Check that it is connected and awake, and press the button again.');
+    }
+    this.studio.endStroke();
+    this.session = session;
+    this.grabbed = 0;
+    this.baseScale = this.studio.state.now.modelToWorld[7]!;
+    for (const hand of kHands) Object.assign(this.devices[hand], device(hand));
+    session.addEventListener('end', () => this.leave());
+    session.addEventListener('visibilitychange', () => {
+      if (session.visibilityState !== 'visible') this.stop();
+    });
+    session.addEventListener('selectstart', (event) => this.select(event.inputSource, true));
+    session.addEventListener('selectend', (event) => this.select(event.inputSource, false));
+    this.stage.enterXr(mode === 'immersive-ar');
+    this.hands.visible = true;
+    await this.stage.renderer.xr.setSession(session);
+  }
+
+  async exit(): Promise<void> {
+    await this.session?.end();
+  }
+
+  private leave(): void {
+    this.stop();
+    this.session = null;
+    this.hands.visible = false;
+    this.view.pen.hide();
+    this.stage.leaveXr();
+    this.onEnd();
+  }
+
+  /** Ends what the hands are doing and keeps it. */
+  private stop(): void {
+    this.studio.endStroke();
+    this.studio.endErase();
+    for (const hand of kHands) {
+      this.devices[hand].trigger.held = false;
+      this.devices[hand].squeeze.held = false;
+      this.devices[hand].selecting = false;
+    }
+    this.grabbed = 0;
+  }
+
+  private select(source: XRInputSource, on: boolean): void {
+    // Controllers are read from their gamepad: some systems fire `select` at press, others half-way.
+    if (!source.gamepad) this.deviceOf(source).selecting = on;
+  }
+
+  private deviceOf(source: XRInputSource): Device {
+    return this.devices[source.handedness === 'none' ? this.studio.settings.hand : source.handedness];
+  }
+
+  /** A frame of the headset. */
+  update(time_ms: number, dt_s: number, frame: XRFrame): void {
+    const space = this.stage.renderer.xr.getReferenceSpace();
+    if (!this.session || !space) return;
+    const viewer = frame.getViewerPose(space);
+    this.read(frame, space);
+    const pen = this.devices[this.studio.settings.hand];
+    const other = this.devices[pen.hand === 'left' ? 'right' : 'left'];
+
+    this.grab(pen, other);
+    this.sticks(pen, other, dt_s);
+    if (viewer && pen.tracked) {
+      const p = viewer.transform.position, q = viewer.transform.orientation, f = this.frame;
+      this.lastTime_ms = Math.max(this.lastTime_ms, time_ms);
+      f[kTime] = this.lastTime_ms / 1000;
+      f[kHead] = p.x; f[kHead + 1] = p.y; f[kHead + 2] = p.z;
+      f[kHead + 3] = q.x; f[kHead + 4] = q.y; f[kHead + 5] = q.z; f[kHead + 6] = q.w;
+      for (let k = 0; k < 7; k += 1) f[kController + k] = pen.pose[k]!;
+      f[kTrigger] = Math.min(1, Math.max(0, pen.value));
+      f[kPressure] = -1;
+      for (let k = 0; k < 3; k += 1) this.tip[k] = pen.pose[k]!;
+      this.point(pen);
+    } else if (this.studio.isDrawing) {
+      // The stroke is kept up to here; it does not go on when the controller is seen again.
+      this.studio.endStroke();
+      this.studio.endErase();
+      pen.trigger.held = true;
+      this.waiting = true;
+      this.onNote('The controller was lost from sight; the stroke was ended and kept.');
+    }
+    this.hands.show(pen, other, this.studio.settings);
+    this.show(pen);
+  }
+
+  /** The trigger must be let go before the next stroke. */
+  private waiting = false;
+
+  private read(frame: XRFrame, space: XRReferenceSpace): void {
+    // Counting loops: iterators and closures would be garbage in every frame.
+    for (let i = 0; i < kHands.length; i += 1) {
+      const d = this.devices[kHands[i]!];
+      d.before.set(d.pose);
+      d.tracked = false;
+      d.source = null;
+    }
+    const { inputSources } = this.session!;
+    for (let i = 0; i < inputSources.length; i += 1) {
+      const source = inputSources[i]!;
+      const d = this.deviceOf(source);
+      if (d.tracked) continue;
+      d.source = source;
+      const pose = frame.getPose(source.targetRaySpace, space);
+      if (pose) {
+        const p = pose.transform.position, q = pose.transform.orientation;
+        const known = d.pose[3] !== 0 || d.pose[4] !== 0 || d.pose[5] !== 0 || d.pose[6] !== 0;
+        d.pose[0] = p.x; d.pose[1] = p.y; d.pose[2] = p.z;
+        d.pose[3] = q.x; d.pose[4] = q.y; d.pose[5] = q.z; d.pose[6] = q.w;
+        if (!known) d.before.set(d.pose);
+        d.tracked = true;
+      }
+      d.value = source.gamepad ? (source.gamepad.buttons[kTriggerButton]?.value ?? 0) : d.selecting ? 1 : 0;
+    }
+  }
+
+  /** Draws or erases with the trigger. */
+  private point(pen: Device): void {
+    const edge = pen.trigger.update(pen.value);
+    const { studio } = this;
+    if (edge === 'release') this.waiting = false;
+    if (edge === 'press' && !this.waiting) {
+      if (studio.settings.tool === 'draw') {
+        studio.beginStroke();
+        pulse(pen.source, 0.6, 25);
+      } else {
+        studio.beginErase();
+      }
+    }
+    if (studio.isDrawing && pen.trigger.held) studio.addFrame(this.frame);
+    if (pen.trigger.held && !studio.isDrawing && studio.settings.tool !== 'draw') this.erase(pen);
+    if (edge === 'release') {
+      studio.endStroke();
+      studio.endErase();
+    }
+  }
+
+  private erase(pen: Device): void {
+    const place = this.studio.state.now.modelToWorld, target = this.studio.target!;
+    toModel(this.spot, 0, place, pen.pose, 0);
+    const near = target.closestPoint(this.spot[0]!, this.spot[1]!, this.spot[2]!);
+    const radius = kEraser_m / place[7]!;
+    if (near && near.distance * place[7]! < kReach_m) {
+      this.studio.eraseAt(near.position[0]!, near.position[1]!, near.position[2]!, radius);
+      return;
+    }
+    const hit = this.aim(pen);
+    if (hit) this.studio.eraseAt(hit.position[0]!, hit.position[1]!, hit.position[2]!, radius);
+  }
+
+  /** Where the pen points. */
+  private aim(pen: Device): ReturnType<NonNullable<Studio['target']>['firstHit']> {
+    const place = this.studio.state.now.modelToWorld;
+    toModel(this.spot, 0, place, pen.pose, 0);
+    this.axis[0] = 0; this.axis[1] = 0; this.axis[2] = -1;
+    rotate(this.axis, 0, pen.pose, 3, this.axis, 0);
+    for (let k = 0; k < 3; k += 1) this.normal[k] = pen.pose[k]! + this.axis[k]!;
+    toModel(this.normal, 0, place, this.normal, 0);
+    return this.studio.target?.firstHit(this.spot[0]!, this.spot[1]!, this.spot[2]!,
+      this.normal[0]! - this.spot[0]!, this.normal[1]! - this.spot[1]!, this.normal[2]! - this.spot[2]!) ?? null;
+  }
+
+  /** The other hand holds the model; both hands turn and scale it. */
+  private grab(pen: Device, other: Device): void {
+    pen.squeeze.update(pen.source?.gamepad?.buttons[kSqueeze]?.value ?? 0);
+    other.squeeze.update(other.source?.gamepad?.buttons[kSqueeze]?.value ?? 0);
+    const penHolds = pen.squeeze.held && pen.tracked && !this.studio.isDrawing;
+    const otherHolds = other.squeeze.held && other.tracked;
+    const holds = (penHolds ? 1 : 0) + (otherHolds ? 2 : 0);
+    // The first frame of a hold only remembers where the hands are.
+    if (holds !== 0 && holds === this.grabbed) {
+      this.model.set(this.studio.state.now.modelToWorld);
+      if (holds === 3) stretchModel(this.model, pen.before, other.before, pen.pose, other.pose, kLeastScale * this.baseScale, kMostScale * this.baseScale);
+      else carryModel(this.model, otherHolds ? other.before : pen.before, otherHolds ? other.pose : pen.pose);
+      this.studio.place(this.model);
+    }
+    this.grabbed = holds;
+  }
+
+  private sticks(pen: Device, other: Device, dt_s: number): void {
+    for (let i = 0; i < 2; i += 1) {
+      const d = i === 0 ? pen : other;
+      const pad = d.source?.gamepad;
+      if (!pad) continue;
+      const x = pad.axes[2] ?? 0, y = pad.axes[3] ?? 0;
+      if (Math.abs(y) > kStickDead && Math.abs(y) > Math.abs(x)) {
+        const { style } = this.studio.settings;
+        this.studio.set({ style: { ...style, radius_m: clampRadius(style.radius_m * Math.exp(-y * dt_s * Math.log(kStickRate))) } });
+      }
+      const pushed = Math.abs(x) > 0.7 && Math.abs(x) > Math.abs(y);
+      if (pushed && !d.stick) this.nextTechnique(Math.sign(x));
+      d.stick = pushed;
+      if (this.pushed(d, pad, kSecondButton)) this.studio.undo();
+      if (this.pushed(d, pad, kFirstButton)) this.nextInk();
+      if (this.pushed(d, pad, kStick)) this.nextTool();
+    }
+  }
+
+  /** Whether a button went down since the last frame. */
+  private pushed(d: Device, pad: Gamepad, number: number): boolean {
+    const down = pad.buttons[number]?.pressed ?? false, before = d.buttons[number] ?? false;
+    d.buttons[number] = down;
+    if (down && !before) pulse(d.source, 0.3, 15);
+    return down && !before;
+  }
+
+  private nextTechnique(step: number): void {
+    const names = this.studio.core.techniques.map((t) => t.name).filter((name) => this.studio.offers(name));
+    const at = names.indexOf(this.studio.settings.technique);
+    this.studio.set({ technique: names[(at + step + names.length) % names.length]! });
+  }
+
+  private nextInk(): void {
+    const { style } = this.studio.settings;
+    const at = kInks.findIndex(({ color }) => color === style.color);
+    this.studio.set({ style: { ...style, color: kInks[(at + 1) % kInks.length]!.color } });
+  }
+
+  private nextTool(): void {
+    const { tool } = this.studio.settings;
+    this.studio.set({ tool: tool === 'draw' ? 'erase curve' : tool === 'erase curve' ? 'erase part' : 'draw' });
+  }
+
+  /** The laser from the tip: to the ink's end while drawing, else to where the spray would land. */
+  private show(pen: Device): void {
+    if (!pen.tracked || !this.studio.target) {
+      this.view.pen.hide();
+      return;
+    }
+    const place = this.studio.state.now.modelToWorld;
+    const ink = this.studio.liveInk;
+    const ring = Math.max(2 * this.studio.settings.style.radius_m, 0.005);
+    if (ink && ink.count > 0) {
+      const at = (ink.count - 1) * kInkStride;
+      for (let k = 0; k < 3; k += 1) {
+        this.spot[k] = ink.floats[at + k]!;
+        this.normal[k] = ink.floats[at + 3 + k]!;
+      }
+    } else {
+      const hit = this.aim(pen);
+      if (!hit) {
+        this.view.pen.show(this.tip, 0.005, null, this.normal, ring);
+        return;
+      }
+      this.spot.set(hit.position);
+      this.normal.set(hit.normal);
+    }
+    toWorld(this.spot, 0, place, this.spot, 0);
+    rotate(this.normal, 0, place, 0, this.normal, 0);
+    this.view.pen.show(this.tip, 0.005, this.spot, this.normal, ring);
+  }
+}
+
+/** A tick in the hand, where the controller can. */
+function pulse(source: XRInputSource | null, strength: number, ms: number): void {
+  const pad = source?.gamepad as (Gamepad & { hapticActuators?: readonly { pulse(value: number, ms: number): Promise<boolean> }[] }) | null | undefined;
+  const actuator = pad?.hapticActuators?.[0];
+  if (actuator?.pulse) void actuator.pulse(strength, ms);
+}
+
+export type { Device };

@@ -1,0 +1,60 @@
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion, Vector3,
+} from 'three';
+import type { Corners } from './creased';
+
+/** A target as it is shown, with whatever is drawn on it as children in model space. */
+export class ModelView {
+  readonly group = new Group();
+  private readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
+  private readonly mirror: Mesh<PlaneGeometry, MeshBasicMaterial>;
+
+  constructor(clay: string) {
+    this.mesh = new Mesh(new BufferGeometry(), new MeshStandardMaterial({
+      color: clay, roughness: 0.82, metalness: 0, side: DoubleSide,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    }));
+    this.mirror = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({
+      color: '#3d7eff', transparent: true, opacity: 0.13, side: DoubleSide, depthWrite: false,
+    }));
+    this.mirror.visible = false;
+    this.group.add(this.mesh, this.mirror);
+  }
+
+  set clay(color: string) {
+    this.mesh.material.color.set(color);
+  }
+
+  show(corners: Corners): void {
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    this.mesh.geometry.setAttribute('position', new BufferAttribute(corners.positions, 3));
+    this.mesh.geometry.setAttribute('normal', new BufferAttribute(corners.normals, 3));
+    this.mesh.geometry.computeBoundingSphere();
+  }
+
+  /** The same triangles in a second view. */
+  shareWith(other: ModelView): void {
+    other.mesh.geometry = this.mesh.geometry;
+  }
+
+  place(modelToWorld: Float64Array): void {
+    const s = modelToWorld;
+    this.group.quaternion.set(s[0]!, s[1]!, s[2]!, s[3]!);
+    this.group.position.set(s[4]!, s[5]!, s[6]!);
+    this.group.scale.setScalar(s[7]!);
+    this.group.updateMatrixWorld();
+  }
+
+  /** The plane of symmetry through `centre`, as large as the model; null: none. */
+  showMirror(axis: 'x' | 'y' | 'z' | null, centre: readonly number[], size: number): void {
+    this.mirror.visible = axis !== null;
+    if (!axis) return;
+    this.mirror.position.set(centre[0]!, centre[1]!, centre[2]!);
+    this.mirror.scale.setScalar(size);
+    this.mirror.quaternion.copy(turn.setFromUnitVectors(zAxis, new Vector3(axis === 'x' ? 1 : 0, axis === 'y' ? 1 : 0, axis === 'z' ? 1 : 0)));
+  }
+}
+
+const zAxis = new Vector3(0, 0, 1);
+const turn = new Quaternion();

@@ -1,0 +1,100 @@
+import type { Drawing, DrawnCurve, InkStyle } from '../drawing/document';
+import type { Curve, Target } from '../engine/core';
+import type { LoadedModel, StudioView } from '../studio';
+import { InkView } from './ink_view';
+import { ModelView } from './model_view';
+import { PenView } from './pen_view';
+import { kLooks, type Stage } from './stage';
+import type { Ink, Width } from './tube';
+
+/** The studio's picture: the model with its ink, and beside it, when comparing, the model with the replayed stroke. */
+export class ThreeView implements StudioView {
+  readonly model: ModelView;
+  readonly twin: ModelView;
+  readonly pen = new PenView();
+  readonly ink = new InkView();
+  private readonly replay = new InkView();
+  private size = 1;
+  private centre: number[] = [0, 0, 0];
+
+  constructor(private readonly stage: Stage) {
+    this.model = new ModelView(kLooks.light.clay);
+    this.twin = new ModelView(kLooks.light.clay);
+    this.model.group.add(this.ink.group);
+    this.twin.group.add(this.replay.group);
+    stage.world.add(this.model.group);
+    stage.scene.add(this.pen.group);
+    stage.twin.add(this.twin.group);
+  }
+
+  set dark(dark: boolean) {
+    const look = dark ? kLooks.dark : kLooks.light;
+    this.stage.setLook(look);
+    this.model.clay = look.clay;
+    this.twin.clay = look.clay;
+  }
+
+  showModel(model: LoadedModel, target: Target): void {
+    this.drop();
+    this.ink.show([]);
+    this.replay.show([]);
+    this.model.show(model.corners);
+    this.model.shareWith(this.twin);
+    this.size = target.diagonal;
+    this.centre = [0, 1, 2].map((k) => (target.min[k]! + target.max[k]!) / 2);
+    this.stage.invalidate();
+  }
+
+  place(modelToWorld: Float64Array): void {
+    this.model.place(modelToWorld);
+    this.twin.place(modelToWorld);
+    this.stage.invalidate();
+  }
+
+  /** Looks at the whole model. */
+  frame(modelToWorld: Float64Array, yaw = 0.35, pitch = 0.18): void {
+    const s = modelToWorld;
+    const p = this.model.group.localToWorld(this.model.group.position.clone().set(this.centre[0]!, this.centre[1]!, this.centre[2]!));
+    this.stage.camera.aspect = this.stage.aspect;
+    this.stage.rig.frame(p.x, p.y, p.z, (this.size / 2) * s[7]! * 0.9, yaw, pitch, this.stage.freeHeight);
+    this.stage.invalidate();
+  }
+
+  showMirror(axis: 'x' | 'y' | 'z' | null): void {
+    this.model.showMirror(axis, this.centre, this.size * 0.9);
+    this.stage.invalidate();
+  }
+
+  beginInk(copy: number, style: InkStyle, modelToWorld: Float64Array, width: Width): void {
+    this.ink.begin(copy, style, modelToWorld, width);
+  }
+
+  growInk(copy: number, ink: Ink): void {
+    this.ink.grow(copy, ink);
+    this.stage.invalidate();
+  }
+
+  keepInk(copy: number, id: string): void {
+    this.ink.keep(copy, id);
+  }
+
+  dropInk(): void {
+    this.drop();
+  }
+
+  private drop(): void {
+    this.ink.drop();
+    this.stage.invalidate();
+  }
+
+  showDrawing(drawing: Drawing): void {
+    this.ink.show(drawing);
+    this.stage.invalidate();
+  }
+
+  showReplay(curve: Curve | null, drawn: DrawnCurve | null): void {
+    this.replay.show([]);
+    if (curve && drawn) this.replay.show([{ ...drawn, curve }]);
+    this.stage.invalidate();
+  }
+}

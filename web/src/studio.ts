@@ -1,0 +1,396 @@
+import { commit, kEmptyHistory, lastStroke, reachable, redo, undo, widthOfPressure, type Drawing, type DrawnCurve, type History, type InkStyle, type Stroke } from './drawing/document';
+import { eraseCurve, erasePart } from './drawing/erase';
+import { FrameBuffer, kPressure, makeFrame } from './drawing/frame';
+import { carryFrame } from './drawing/carry';
+import { mirrorFrame, mirrorPlane, type MirrorAxis, type Plane } from './drawing/symmetry';
+import { kInked, type Core, type Curve, type MeshArrays, type RecordedStroke, type Session, type Target } from './engine/core';
+import type { Corners } from './scene/creased';
+import type { Ink, Width } from './scene/tube';
+import { kDefaults, type Settings } from './settings';
+import { Store } from './store';
+
+/** Where the model came from, so that it can be had again. */
+export type ModelSource = { shape: string } | { file: string; bytes: Uint8Array };
+
+/** A model that was read and looked at in a worker. */
+export interface LoadedModel {
+  name: string;
+  source: ModelSource;
+  mesh: MeshArrays;
+  corners: Corners;
+  /** What a user should know about the mesh, as sentences. */
+  remarks: readonly string[];
+}
+
+/** What shows the studio: three.js, or nothing in tests. The live calls come once a frame. */
+export interface StudioView {
+  showModel(model: LoadedModel, target: Target): void;
+  place(modelToWorld: Float64Array): void;
+  beginInk(copy: number, style: InkStyle, modelToWorld: Float64Array, width: Width): void;
+  growInk(copy: number, ink: Ink): void;
+  /** The live ink of a copy becomes that of a finished curve. */
+  keepInk(copy: number, id: string): void;
+  dropInk(): void;
+  showDrawing(drawing: Drawing): void;
+  showReplay(curve: Curve | null, drawn: DrawnCurve | null): void;
+}
+
+export interface StudioState {
+  settings: Settings;
+  history: History;
+  model: { name: string; source: ModelSource; faces: number; remarks: readonly string[] } | null;
+  hasEmbedding: boolean;
+  drawing: boolean; // a stroke is being drawn
+  modelToWorld: Float64Array;
+}
+
+/** Where a new model stands: in front of someone who stands at the origin. */
+export const kCentre: readonly [number, number, number] = [0, 1.15, -0.55];
+
+/**
+ * The studio without a picture: a model, a drawing with its history, and the stroke that is being
+ * drawn. Everything a page, a headset or a test does goes through here.
+ */
+export class Studio {
+  readonly state: Store<StudioState>;
+  target: Target | null = null;
+  private loaded: LoadedModel | null = null;
+  private readonly sessions = new Map<string, Session>();
+  private readonly curves = new Set<Curve>();
+  private readonly frames = [new FrameBuffer(), new FrameBuffer()];
+  private readonly mirrored = makeFrame();
+  private live: { technique: string; style: InkStyle; mirror: MirrorAxis | null; plane: Plane | null; id: string; place: Float64Array; sessions: Session[] } | null = null;
+  private erasing: { before: Drawing; tool: 'erase curve' | 'erase part' } | null = null;
+  private serial = 0;
+
+  constructor(readonly core: Core, private readonly view: StudioView, settings: Settings = kDefaults) {
+    this.state = new Store<StudioState>({
+      settings: core.techniques.some((t) => t.name === settings.technique) ? settings : { ...settings, technique: kDefaults.technique },
+      history: kEmptyHistory, model: null, hasEmbedding: false, drawing: false,
+      modelToWorld: new Float64Array([0, 0, 0, 1, ...kCentre, 1]),
+    });
+    this.state.watch((now, before) => {
+      if (now.history.drawing !== before.history.drawing) this.view.showDrawing(now.history.drawing);
+    });
+  }
+
+  get settings(): Settings {
+    return this.state.now.settings;
+  }
+
+  set(part: Partial<Settings>): void {
+    const before = this.settings;
+    this.state.update({ settings: { ...before, ...part } });
+    if (part.compare !== undefined && part.compare !== before.compare) this.replay();
+  }
+
+  // Models ------------------------------------------------------------------------------------
+
+  /** Shows another model; the drawing begins anew. Throws where it cannot be drawn on: all stays as it was. */
+  open(model: LoadedModel): void {
+    const target = this.core.createTarget(model.mesh, model.name, { allowNonmanifold: true });
+    this.endStroke();
+    this.forgetAll();
+    this.target?.dispose();
+    this.target = target;
+    this.loaded = model;
+    const scale = model.mesh.metresPerUnit;
+    const place = new Float64Array([0, 0, 0, 1, 0, 0, 0, scale]);
+    for (let k = 0; k < 3; k += 1) place[4 + k] = kCentre[k]! - (scale * (target.min[k]! + target.max[k]!)) / 2;
+    this.view.showModel(model, target);
+    this.view.place(place);
+    this.state.update({
+      history: kEmptyHistory, hasEmbedding: false, modelToWorld: place,
+      model: { name: model.name, source: model.source, faces: model.mesh.faces.length / 3, remarks: model.remarks },
+    });
+    if (this.technique(this.settings.technique).needsBake) this.set({ technique: kDefaults.technique });
+  }
+
+  get mesh(): MeshArrays | null {
+    return this.loaded?.mesh ?? null;
+  }
+
+  /** Adds the bake of this model. Throws where it was made for another one. */
+  addEmbedding(bytes: Uint8Array, name: string): void {
+    if (!this.target) return;
+    const target = this.target.withEmbedding(bytes, name);
+    this.endStroke();
+    this.closeSessions();
+    this.target.dispose();
+    this.target = target;
+    this.state.update({ hasEmbedding: true });
+  }
+
+  /** The model moves, is turned or scaled; ink goes with it. */
+  place(modelToWorld: Float64Array): void {
+    this.state.now.modelToWorld.set(modelToWorld);
+    this.view.place(this.state.now.modelToWorld);
+  }
+
+  technique(name: string): Core['techniques'][number] {
+    return this.core.techniques.find((t) => t.name === name) ?? this.core.techniques[0]!;
+  }
+
+  /** Whether the technique works on this model as it is. */
+  offers(name: string): boolean {
+    return !this.technique(name).needsBake || this.state.now.hasEmbedding;
+  }
+
+  // Strokes -----------------------------------------------------------------------------------
+
+  get isDrawing(): boolean {
+    return this.live !== null;
+  }
+
+  /** Starts a stroke with the technique, colour, size and symmetry of the settings. */
+  beginStroke(): void {
+    if (!this.target || this.live) return;
+    const { technique, style, mirror } = this.settings;
+    const place = this.state.now.modelToWorld.slice();
+    const plane = mirror ? mirrorPlane(mirror, this.centre(), place) : null;
+    const sessions = [this.session(technique, 0)];
+    if (plane) sessions.push(this.session(technique, 1));
+    this.serial += 1;
+    const id = `stroke-${Date.now().toString(36)}-${this.serial}`;
+    this.live = { technique, style: { ...style }, mirror, plane, id, place, sessions };
+    sessions.forEach((session, copy) => {
+      const buffer = this.frames[copy]!;
+      buffer.clear();
+      session.begin(place);
+      this.view.beginInk(copy, style, place, (frame, out) => {
+        out[0] = widthOfPressure(buffer.at(frame, kPressure));
+      });
+    });
+    this.state.update({ drawing: true });
+  }
+
+  /** One more frame; true where the pen found a point. Makes no garbage. */
+  addFrame(frame: Float64Array): boolean {
+    const live = this.live;
+    if (!live) return false;
+    // A model that is moved while it is drawn on takes the stroke along: frames are stored as if it had stayed.
+    this.asPlacedAtStart(frame);
+    let inked = false;
+    for (let copy = 0; copy < live.sessions.length; copy += 1) {
+      let own = this.placed;
+      if (copy > 0) {
+        mirrorFrame(this.mirrored, this.placed, live.plane!);
+        own = this.mirrored;
+      }
+      this.frames[copy]!.append(own);
+      const session = live.sessions[copy]!;
+      const status = session.add(own);
+      if (copy === 0) inked = status === kInked;
+      if (status === kInked) this.view.growInk(copy, session.ink);
+    }
+    return inked;
+  }
+
+  /** The ink of the stroke that is being drawn. */
+  get liveInk(): Ink | null {
+    return this.live?.sessions[0]?.ink ?? null;
+  }
+
+  /** Ends the stroke and keeps what was drawn. */
+  endStroke(): void {
+    const live = this.live;
+    if (!live) return;
+    this.live = null;
+    const added: DrawnCurve[] = [];
+    live.sessions.forEach((session, copy) => {
+      session.end();
+      if (session.ink.count === 0) return;
+      const id = copy === 0 ? live.id : `${live.id}/${live.mirror}`;
+      const curve = this.own(session.curve(), id);
+      const stroke: Stroke = { id, target: this.state.now.model!.name, modelToWorld: live.place, frames: this.frames[copy]!.take() };
+      added.push({ id, stroke, mirror: copy === 0 ? null : live.mirror, style: live.style, kept: [[0, this.frames[copy]!.count - 1]], curve });
+      this.view.keepInk(copy, id);
+    });
+    this.view.dropInk();
+    this.state.update({
+      drawing: false,
+      history: added.length > 0 ? commit(this.state.now.history, [...this.state.now.history.drawing, ...added], 'stroke') : this.state.now.history,
+    });
+    this.sweep();
+    this.replay();
+  }
+
+  /** Drops the stroke that is being drawn: what looked like one was another gesture. */
+  cancelStroke(): void {
+    const live = this.live;
+    if (!live) return;
+    this.live = null;
+    for (const session of live.sessions) session.end();
+    this.view.dropInk();
+    this.state.update({ drawing: false });
+  }
+
+  // Edits -------------------------------------------------------------------------------------
+
+  beginErase(): void {
+    const { tool } = this.settings;
+    if (tool === 'draw' || this.live) return;
+    this.erasing = { before: this.state.now.history.drawing, tool };
+  }
+
+  /** Erases around a point of model space. */
+  eraseAt(x: number, y: number, z: number, radius: number): void {
+    if (!this.erasing) return;
+    const { history } = this.state.now;
+    const drawing = (this.erasing.tool === 'erase curve' ? eraseCurve : erasePart)(history.drawing, x, y, z, radius);
+    if (drawing !== history.drawing) this.state.update({ history: { ...history, drawing } });
+  }
+
+  endErase(): void {
+    const erasing = this.erasing;
+    if (!erasing) return;
+    this.erasing = null;
+    const { history } = this.state.now;
+    this.state.update({ history: commit({ ...history, drawing: erasing.before }, history.drawing, erasing.tool === 'erase curve' ? 'erasing' : 'erasing a part') });
+    this.sweep();
+  }
+
+  undo(): void {
+    this.endStroke();
+    this.state.update({ history: undo(this.state.now.history) });
+    this.replay();
+  }
+
+  redo(): void {
+    this.endStroke();
+    this.state.update({ history: redo(this.state.now.history) });
+    this.replay();
+  }
+
+  clear(): void {
+    this.endStroke();
+    if (this.state.now.history.drawing.length === 0) return;
+    this.state.update({ history: commit(this.state.now.history, [], 'clearing') });
+    this.replay();
+  }
+
+  /** The last stroke, drawn anew with another technique. */
+  redrawLast(technique: string): void {
+    const last = lastStroke(this.state.now.history.drawing);
+    if (last.length === 0 || !this.offers(technique)) return;
+    this.endStroke();
+    const redrawn = new Map(last.map((drawn) => [drawn, { ...drawn, curve: this.own(this.project(technique, drawn.stroke), drawn.id) }]));
+    const drawing = this.state.now.history.drawing.map((drawn) => redrawn.get(drawn) ?? drawn);
+    this.state.update({ history: commit(this.state.now.history, drawing, `redrawing with ${technique}`) });
+    this.sweep();
+  }
+
+  /** Strokes of a file, through the technique of the settings. Returns how many left a curve. */
+  importStrokes(strokes: readonly RecordedStroke[]): number {
+    this.endStroke();
+    const added: DrawnCurve[] = [];
+    const taken = new Set(this.state.now.history.drawing.map((drawn) => drawn.id));
+    for (const stroke of strokes) {
+      let id = stroke.id;
+      for (let k = 2; taken.has(id); k += 1) id = `${stroke.id}-${k}`;
+      const curve = this.project(this.settings.technique, stroke);
+      if (curve.ink.count === 0) {
+        curve.dispose();
+        continue;
+      }
+      taken.add(id);
+      added.push({
+        id, stroke: { ...stroke, id }, mirror: null, style: { ...this.settings.style },
+        kept: [[0, stroke.frames.length / 17 - 1]], curve: this.own(curve, id),
+      });
+    }
+    if (added.length > 0) this.state.update({ history: commit(this.state.now.history, [...this.state.now.history.drawing, ...added], 'import') });
+    this.replay();
+    return added.length;
+  }
+
+  /** A drawing that was saved. */
+  restore(drawing: Drawing): void {
+    for (const drawn of drawing) this.curves.add(drawn.curve);
+    this.state.update({ history: { ...kEmptyHistory, drawing } });
+    this.replay();
+  }
+
+  /** A recorded stroke from first frame to last. */
+  project(technique: string, stroke: Pick<RecordedStroke, 'modelToWorld' | 'frames'>): Curve {
+    const session = this.session(technique, 0);
+    session.begin(stroke.modelToWorld);
+    for (let at = 0; at < stroke.frames.length; at += 17) session.add(stroke.frames.subarray(at, at + 17));
+    session.end();
+    return session.curve();
+  }
+
+  // Comparing ---------------------------------------------------------------------------------
+
+  private replayed: Curve | null = null;
+
+  /** Shows the last stroke through the technique that it is compared with. */
+  private replay(): void {
+    const { compare } = this.settings;
+    const last = lastStroke(this.state.now.history.drawing)[0] ?? null;
+    const before = this.replayed;
+    this.replayed = compare && last && this.offers(compare) && !this.live ? this.project(compare, last.stroke) : null;
+    this.view.showReplay(this.replayed, last);
+    before?.dispose();
+  }
+
+  // Inside ------------------------------------------------------------------------------------
+
+  centre(): number[] {
+    const { min, max } = this.target!;
+    return [0, 1, 2].map((k) => (min[k]! + max[k]!) / 2);
+  }
+
+  private readonly placed = makeFrame();
+
+  private asPlacedAtStart(frame: Float64Array): void {
+    const now = this.state.now.modelToWorld, start = this.live!.place;
+    this.placed.set(frame);
+    for (let k = 0; k < 8; k += 1) {
+      if (now[k] !== start[k]) {
+        carryFrame(this.placed, now, start);
+        return;
+      }
+    }
+  }
+
+  private session(technique: string, copy: number): Session {
+    const key = `${technique}/${copy}`;
+    let session = this.sessions.get(key);
+    if (!session) {
+      session = this.target!.session(technique);
+      this.sessions.set(key, session);
+    }
+    return session;
+  }
+
+  private own(curve: Curve, id: string): Curve {
+    const named = curve.withStroke(id);
+    curve.dispose();
+    this.curves.add(named);
+    return named;
+  }
+
+  /** Frees curves that no state of the history shows any more. */
+  private sweep(): void {
+    const needed = reachable(this.state.now.history);
+    for (const curve of this.curves) {
+      if (needed.has(curve)) continue;
+      this.curves.delete(curve);
+      curve.dispose();
+    }
+  }
+
+  private closeSessions(): void {
+    for (const session of this.sessions.values()) session.dispose();
+    this.sessions.clear();
+  }
+
+  private forgetAll(): void {
+    this.closeSessions();
+    this.replayed?.dispose();
+    this.replayed = null;
+    for (const curve of this.curves) curve.dispose();
+    this.curves.clear();
+  }
+}

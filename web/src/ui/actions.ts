@@ -1,0 +1,27 @@
+import type { CurveFormat } from '../engine/core';
+
+/** What the interface can ask for. */
+export interface Actions {
+  undo(): void;
+  redo(): void;
+  clear(): void;
+  frameModel(): void;
+  openFiles(files: Iterable<File>): void;
+  chooseFiles(): void;
+  openShape(name: string): void;
+  saveDrawing(): void;
+  exportCurves(format: CurveFormat): void;
+  exportStrokes(): void;
+  bake(): void;
+  redrawLast(): void;
+  enterXr(mode: 'immersive-vr' | 'immersive-ar'): void;
+}
+
+/** What a file is called under which an export is saved. */
+export const kExports: readonly { format: CurveFormat; title: string; what: string }[] = [
+  { format: 'json', title: 'Curves, JSON', what: 'points, faces, edge crossings' },
+  { format: 'glb', title: 'Scene, GLB', what: 'model and tubes in colour' },
+  { format: 'obj', title: 'Polylines, OBJ', what: 'for modelling programs' },
+  { format: 'ply', title: 'Polylines, PLY', what: 'with colours' },
+  { format: 'csv', title: 'Table, CSV', what: 'a row a point' },
+];

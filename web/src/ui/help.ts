@@ -1,0 +1,35 @@
+import { h, icon, kIcons } from './dom';
+
+const kHelp: readonly { title: string; rows: readonly [string[], string][] }[] = [
+  { title: 'Mouse', rows: [
+    [['drag on the model'], 'draw, or erase'], [['drag beside it'], 'turn the view'], [['right-drag', 'Space + drag'], 'turn the view'],
+    [['middle-drag', 'Shift + drag'], 'move the view'], [['wheel'], 'zoom; while drawing: pen nearer or farther'],
+  ] },
+  { title: 'Fingers and pen', rows: [
+    [['one finger on the model'], 'draw'], [['one finger beside it'], 'turn the view'], [['two fingers'], 'zoom and move'],
+    [['pen'], 'draws with pressure and tilt; fingers then only navigate'],
+  ] },
+  { title: 'Keyboard', rows: [
+    [['D'], 'draw'], [['E'], 'erase curves'], [['R'], 'erase parts'], [['1', '…', '8'], 'colour'], [['[', ']'], 'thinner, thicker'], [['T'], 'techniques'], [['C'], 'compare'],
+    [['M'], 'symmetry'], [['P'], 'pen in front, on the surface'], [['F'], 'show the whole model'], [['Arrows'], 'turn the view'], [['+', '−'], 'zoom'],
+    [['Ctrl Z'], 'undo'], [['Ctrl Shift Z'], 'redo'], [['Ctrl O'], 'open'], [['Ctrl S'], 'save'], [['Enter'], 'draw from the keyboard: arrows move the pen, Enter ends'], [['?'], 'this help'],
+  ] },
+  { title: 'Headset', rows: [
+    [['trigger'], 'draw, or erase'], [['squeeze, other hand'], 'hold the model, also while drawing'], [['both squeezes'], 'turn and scale'],
+    [['thumbstick ↕'], 'thickness'], [['thumbstick ↔'], 'technique'], [['B or Y'], 'undo'], [['A or X'], 'colour'],
+  ] },
+];
+
+/** All gestures and keys. */
+export function helpDialog(): HTMLDialogElement {
+  const close = h('button', { class: 'button', type: 'button', 'aria-label': 'Close the help', onclick: () => dialog.close() }, icon(kIcons.close));
+  const dialog: HTMLDialogElement = h('dialog', { id: 'help', 'aria-labelledby': 'help-title', onclick: (event: Event) => { if (event.target === dialog) dialog.close(); } },
+    h('header', {}, h('h2', { id: 'help-title' }, 'Drawing in the studio'), close),
+    h('div', { class: 'content' }, ...kHelp.map(({ title, rows }) => h('section', {}, h('h3', {}, title),
+      h('dl', {}, ...rows.flatMap(([keys, what]) => {
+        const term = h('dt');
+        keys.forEach((key, i) => term.append(...(i > 0 ? [' '] : []), h('kbd', {}, key)));
+        return [term, h('dd', {}, what)];
+      }))))));
+  return dialog;
+}

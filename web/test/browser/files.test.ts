@@ -1,0 +1,257 @@
+import type { Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { torusObj } from './meshes';
+import { downloaded, kAcross, Lab, messages, reset, stroke, summary, type Opened } from './studio_page';
+
+/** On the torus. */
+const kRing = [[390, 190], [400, 220], [395, 250]] as const;
+
+let lab: Lab;
+let opened: Opened;
+let page: Page;
+
+beforeAll(async () => { lab = await Lab.start(); });
+afterAll(() => lab.stop());
+beforeAll(async () => {
+  opened = await lab.open();
+  page = opened.page;
+});
+beforeEach(() => reset(page));
+afterEach(() => { expect(opened.errors).toEqual([]); });
+
+async function choose(...files: { name: string; bytes: Buffer | string }[]): Promise<void> {
+  await page.setInputFiles('input[type=file]', files.map(({ name, bytes }) => ({ name, mimeType: '', buffer: Buffer.from(bytes) })));
+}
+
+async function drop(name: string, text: string): Promise<void> {
+  const transfer = await page.evaluateHandle(([n, t]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([t!], n!));
+    return data;
+  }, [name, text]);
+  await page.dispatchEvent('body', 'dragenter', { dataTransfer: transfer });
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+const modelName = (): Promise<string | undefined> => page.evaluate(() => window.studio.studio.state.now.model?.name);
+const menu = async (item: string): Promise<void> => {
+  await page.getByRole('button', { name: 'Save, export and more' }).click();
+  await page.getByRole('button', { name: item }).click();
+};
+const settled = (): Promise<void> => page.evaluate(() => window.studio.autosave.settled());
+
+describe('models', () => {
+  it('a dropped OBJ is drawn on at once', async () => {
+    await drop('ring.obj', torusObj(24));
+    await expect.poll(modelName).toBe('ring.obj');
+    await stroke(page, kRing);
+    expect((await summary(page)).curves[0]!.points).toBeGreaterThan(5);
+    expect(await messages(page)).toEqual([]);
+  });
+
+  it('an 86,400-face OBJ too', async () => {
+    await choose({ name: 'large.obj', bytes: torusObj(120) });
+    await expect.poll(modelName).toBe('large.obj');
+    await stroke(page, kRing);
+    expect((await summary(page)).curves[0]!.points).toBeGreaterThan(5);
+  });
+
+  it('STL, PLY and the built-in shapes are read', async () => {
+    await choose({ name: 'tri.stl', bytes: 'solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n' });
+    await expect.poll(modelName).toBe('tri.stl');
+    await choose({ name: 'tri.ply', bytes: 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' });
+    await expect.poll(modelName).toBe('tri.ply');
+    await page.getByTitle('Choose or open a model').click();
+    await page.getByRole('button', { name: 'Trefoil' }).click();
+    await expect.poll(modelName).toBe('trefoil');
+  });
+
+  it('what cannot be used is answered by a sentence, and nothing is lost', async () => {
+    await stroke(page, kAcross);
+    const bad = [
+      { name: 'text.obj', bytes: 'this is not a mesh\n', says: /text\.obj/ },
+      { name: 'nan.obj', bytes: 'v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n', says: /nan\.obj/ },
+      { name: 'cut.glb', bytes: 'glTF\u0002\0\0\0', says: /cut\.glb/ },
+      { name: 'empty.ply', bytes: '', says: /empty\.ply: the file is empty/ },
+      { name: 'photo.jpg', bytes: 'x', says: /photo\.jpg: not a kind of file that the studio opens/ },
+      { name: 'other.json', bytes: '{"format": "other"}', says: /other\.json/ },
+      { name: 'wrong.mimicry', bytes: 'MIMICRY?', says: /wrong\.mimicry/ },
+      { name: 'half.mimicry-drawing', bytes: '{"format":"mimicry-drawing","version":1,', says: /half\.mimicry-drawing: the file is cut off/ },
+    ];
+    for (const { name, bytes, says } of bad) {
+      await choose({ name, bytes });
+      await expect.poll(async () => (await messages(page)).at(-1), { message: name }).toMatch(says);
+    }
+    expect((await summary(page)).curves).toHaveLength(1);
+    expect(await modelName()).toBe('hand');
+  });
+
+  it('a file of 2 GB is refused before it is read', async () => {
+    await page.evaluate(() => {
+      const file = new File(['v'], 'huge.obj');
+      Object.defineProperty(file, 'size', { value: 2e9 });
+      window.studio.openFiles([file]);
+    });
+    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('huge.obj: 2.0 GB is more than a browser can hold')]);
+  });
+
+  it('reading can be cancelled', async () => {
+    const obj = torusObj(160);
+    await Promise.all([choose({ name: 'slow.obj', bytes: obj }), page.getByRole('button', { name: 'Cancel' }).click()]);
+    await expect.poll(() => messages(page)).toEqual([]);
+    expect(await modelName()).toBe('hand');
+  });
+});
+
+describe('drawings', () => {
+  it('are there again after a reload, to the bit, erased parts gone', async () => {
+    await page.keyboard.press('m');
+    await stroke(page, kAcross);
+    await page.keyboard.press('2');
+    await stroke(page, [[320, 280], [375, 285]]);
+    await page.keyboard.press('r');
+    await stroke(page, [[345, 282], [348, 282]]);
+    const state = (): Promise<unknown> => page.evaluate(() => window.studio.studio.state.now.history.drawing.map((d) => ({ id: d.id, kept: d.kept, style: d.style, mirror: d.mirror, ink: [...d.curve.ink.integers], frames: [...d.stroke.frames] })));
+    const before = await state();
+    await settled();
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await state()).toEqual(before);
+  });
+
+  it('on an opened file come back with the file; what is being drawn when the page goes is kept', async () => {
+    await drop('ring.obj', torusObj(24));
+    await expect.poll(modelName).toBe('ring.obj');
+    await page.mouse.move(...kRing[0]!);
+    await page.mouse.down();
+    await page.mouse.move(...kRing[1]!, { steps: 6 });
+    await page.evaluate(() => window.dispatchEvent(new Event('pagehide')));
+    await settled();
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await modelName()).toBe('ring.obj');
+    expect((await summary(page)).curves).toHaveLength(1);
+  });
+
+  it('are saved to a file and opened from it', async () => {
+    await drop('ring.obj', torusObj(24));
+    await expect.poll(modelName).toBe('ring.obj');
+    await stroke(page, kRing);
+    const saved = await downloaded(page, () => page.keyboard.press('Control+s'));
+    expect(saved.name).toBe('ring.mimicry-drawing');
+    const before = await summary(page);
+    await page.getByTitle('Choose or open a model').click();
+    await page.getByRole('button', { name: 'Torus', exact: true }).click();
+    await expect.poll(modelName).toBe('torus');
+    await choose(saved);
+    await expect.poll(modelName).toBe('ring.obj');
+    await expect.poll(async () => (await summary(page)).curves).toEqual(before.curves);
+  });
+
+  it('are exported in every format', async () => {
+    await stroke(page, kAcross);
+    const looks: Record<string, (bytes: Buffer) => boolean> = {
+      'Curves, JSON': (b) => JSON.parse(b.toString()).format === 'mimicry-curves',
+      'Scene, GLB': (b) => b.subarray(0, 4).toString() === 'glTF',
+      'Polylines, OBJ': (b) => /^l /m.test(b.toString()),
+      'Polylines, PLY': (b) => b.toString().startsWith('ply'),
+      'Table, CSV': (b) => b.toString().startsWith('curve,stroke,'),
+      'Recorded strokes': (b) => JSON.parse(b.toString()).format === 'mimicry-strokes',
+    };
+    for (const [item, right] of Object.entries(looks)) {
+      const { name, bytes } = await downloaded(page, () => menu(item));
+      expect(name).toMatch(/^hand-(curves\.(json|glb|obj|ply|csv)|strokes\.json)$/);
+      expect(right(bytes), item).toBe(true);
+    }
+  });
+
+  it('export their erased curves in parts', async () => {
+    await stroke(page, kAcross, 20);
+    await page.evaluate(() => {
+      const { studio } = window.studio;
+      const { ink } = studio.state.now.history.drawing[0]!.curve;
+      const at = 8 * Math.floor(ink.count / 2);
+      studio.set({ tool: 'erase part' });
+      studio.beginErase();
+      studio.eraseAt(ink.floats[at]!, ink.floats[at + 1]!, ink.floats[at + 2]!, 0.02 * studio.target!.diagonal);
+      studio.endErase();
+    });
+    const { bytes } = await downloaded(page, () => menu('Curves, JSON'));
+    expect(JSON.parse(bytes.toString()).curves.map((c: { stroke: string }) => c.stroke.replace(/^.*\./, '.'))).toEqual(['.1', '.2']);
+  });
+
+  it('recorded strokes are drawn again by the technique in use, to the same points', async () => {
+    await stroke(page, kAcross, 12);
+    const strokes = await downloaded(page, () => menu('Recorded strokes'));
+    const points = (await summary(page)).curves[0]!.points;
+    await menu('Clear the drawing');
+    await choose({ name: 'strokes.json', bytes: strokes.bytes });
+    await expect.poll(async () => (await summary(page)).curves.map((c) => c.points)).toEqual([points]);
+  });
+
+  it('that cannot be kept say so', async () => {
+    await page.evaluate(() => {
+      const { put } = IDBObjectStore.prototype;
+      IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); };
+      Object.assign(window, { heal: () => { IDBObjectStore.prototype.put = put; } });
+    });
+    await stroke(page, kAcross);
+    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('storage is full')]);
+    expect((await summary(page)).curves).toHaveLength(1);
+    await page.evaluate(() => (window as unknown as { heal(): void }).heal());
+  });
+});
+
+describe('preparing', () => {
+  it('runs beside drawing, can be cancelled, and switches the other techniques on', async () => {
+    await drop('ring.obj', torusObj(8));
+    await expect.poll(modelName).toBe('ring.obj');
+    const mimicry = page.getByRole('radio', { name: /^Mimicry (?!live)/ }).first();
+    const start = async (): Promise<void> => {
+      await page.keyboard.press('t');
+      expect(await mimicry.isDisabled()).toBe(true);
+      await page.getByRole('button', { name: 'Prepare this model' }).click();
+    };
+    await start();
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await expect.poll(() => messages(page)).toEqual([]);
+    await start();
+    await stroke(page, kRing);
+    await expect.poll(() => messages(page), { timeout: 25000 }).toEqual([expect.stringContaining('is prepared')]);
+    await page.keyboard.press('t');
+    await page.locator('input[value=mimicry]').check();
+    await page.keyboard.press('Escape');
+    await stroke(page, kRing);
+    expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
+    await settled();
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await page.evaluate(() => window.studio.studio.state.now.hasEmbedding)).toBe(true);
+    expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
+  });
+});
+
+describe('a browser without', () => {
+  it('WebGL 2 is told so', async () => {
+    const context = await lab.browser.newContext();
+    const bare = await context.newPage();
+    await bare.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+    await bare.goto(lab.served.url);
+    await expect.poll(() => bare.locator('.fatal').textContent()).toContain('no WebGL 2');
+    await context.close();
+  });
+
+  it('a picture for a moment keeps the drawing, and gets the picture back', async () => {
+    await stroke(page, kAcross);
+    await page.evaluate(async () => {
+      const lose = window.studio.stage.renderer.getContext().getExtension('WEBGL_lose_context')!;
+      lose.loseContext();
+      await new Promise((done) => setTimeout(done, 100));
+      lose.restoreContext();
+    });
+    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('the drawing is safe')]);
+    await stroke(page, [[320, 280], [375, 285]]);
+    expect((await summary(page)).curves).toHaveLength(2);
+    opened.errors.length = 0; // three.js tells the console of the loss
+  });
+});

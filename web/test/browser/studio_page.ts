@@ -1,0 +1,116 @@
+import { existsSync } from 'node:fs';
+import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
+import type { App } from '../../src/app';
+import { kDefaults } from '../../src/settings';
+import { serve, type Served } from './server';
+
+export const kWindow = { width: 640, height: 480 };
+
+export const kChromium = '/usr/bin/chromium';
+
+declare global {
+  interface Window {
+    studio: App;
+  }
+}
+
+export interface Opened {
+  context: BrowserContext;
+  page: Page;
+  /** Errors of the page that nobody caught, and what it wrote to the console as an error. */
+  errors: string[];
+}
+
+/** A browser and the built page. */
+export class Lab {
+  private constructor(readonly browser: Browser, readonly served: Served) {}
+
+  static async start(): Promise<Lab> {
+    if (!existsSync('dist/index.html')) throw new Error('dist/ is not there; run: npm run build');
+    const browser = await chromium.launch({
+      executablePath: kChromium,
+      args: ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
+        '--disable-background-networking', '--disable-component-update', '--disable-sync', '--enable-precise-memory-info', '--js-flags=--expose-gc'],
+    });
+    return new Lab(browser, await serve());
+  }
+
+  async stop(): Promise<void> {
+    await this.browser.close();
+    this.served.close();
+  }
+
+  /** The studio, ready to be drawn in. prepare: before the page's own code runs. */
+  async open(options: BrowserContextOptions & { query?: string; prepare?: (page: Page) => Promise<void> } = {}): Promise<Opened> {
+    const { query = '', prepare, ...rest } = options;
+    const context = await this.browser.newContext({ viewport: kWindow, deviceScaleFactor: 1, colorScheme: 'light', acceptDownloads: true, ...rest });
+    const page = await context.newPage();
+    const errors: string[] = [];
+    page.on('pageerror', (error) => errors.push(String(error)));
+    page.on('console', (message) => {
+      if (message.type() === 'error') errors.push(message.text());
+    });
+    if (prepare) await prepare(page);
+    await page.goto(`${this.served.url}?antialias=off&motion=off${query}`);
+    await page.waitForSelector('html[data-ready]', { timeout: 20000 });
+    return { context, page, errors };
+  }
+}
+
+/** As just opened: the first model, no drawing, the settings of a newcomer. */
+export async function reset(page: Page): Promise<void> {
+  await page.evaluate(async (defaults) => {
+    for (const sheet of document.querySelectorAll<HTMLElement>('[popover]')) sheet.hidePopover();
+    document.querySelector<HTMLDialogElement>('dialog[open]')?.close();
+    document.querySelectorAll('.message').forEach((message) => message.remove());
+    window.studio.studio.set(defaults);
+    window.studio.openShape('hand');
+    await window.studio.autosave.settled();
+  }, kDefaults);
+}
+
+export interface Summary {
+  curves: { id: string; technique: string; points: number; frames: number; color: string; kept: (readonly [number, number])[]; mirror: string | null; pressures: number[] }[];
+  past: number;
+  future: number;
+  drawing: boolean;
+}
+
+/** The drawing in words that can leave the page. */
+export function summary(page: Page): Promise<Summary> {
+  return page.evaluate(() => {
+    const { history, drawing } = window.studio.studio.state.now;
+    return {
+      curves: history.drawing.map((drawn) => ({
+        id: drawn.id, technique: drawn.curve.technique, points: drawn.curve.pointCount, frames: drawn.stroke.frames.length / 17, color: drawn.style.color,
+        kept: [...drawn.kept], mirror: drawn.mirror, pressures: Array.from({ length: drawn.stroke.frames.length / 17 }, (_, i) => drawn.stroke.frames[17 * i + 16]!),
+      })),
+      past: history.past.length, future: history.future.length, drawing,
+    };
+  });
+}
+
+/** A mouse stroke through points of the window. */
+export async function stroke(page: Page, points: readonly (readonly [number, number])[], steps = 6): Promise<void> {
+  await page.mouse.move(...points[0]!);
+  await page.mouse.down();
+  for (const point of points.slice(1)) await page.mouse.move(...point, { steps });
+  await page.mouse.up();
+}
+
+/** A stroke over the middle of the model. */
+export const kAcross = [[300, 240], [320, 220], [340, 225], [365, 240]] as const;
+
+export async function messages(page: Page): Promise<string[]> {
+  return page.$$eval('#messages .message p', (list) => list.map((p) => p.textContent ?? ''));
+}
+
+/** What the page offers as a download when `act` is done. */
+export async function downloaded(page: Page, act: () => Promise<void>): Promise<{ name: string; bytes: Buffer }> {
+  const waiting = page.waitForEvent('download');
+  await act();
+  const download = await waiting;
+  const parts: Buffer[] = [];
+  for await (const part of await download.createReadStream()) parts.push(part as Buffer);
+  return { name: download.suggestedFilename(), bytes: Buffer.concat(parts) };
+}

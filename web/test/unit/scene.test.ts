@@ -1,0 +1,166 @@
+import { PerspectiveCamera, Vector3 } from 'three';
+import { describe, expect, it } from 'vitest';
+import { CameraRig } from '../../src/scene/camera_rig';
+import { creasedCorners } from '../../src/scene/creased';
+import { Tube, type Ink, type Width } from '../../src/scene/tube';
+import { random } from './random';
+
+function ink(points: number[][], starts: number[] = [0]): Ink {
+  const floats = new Float32Array(8 * points.length), integers = new Int32Array(floats.buffer);
+  points.forEach((p, i) => {
+    floats.set([...p, 0, 0, 1], 8 * i);
+    integers[8 * i + 6] = i;
+    integers[8 * i + 7] = starts.includes(i) ? 1 : 0;
+  });
+  return { floats, integers, count: points.length };
+}
+
+const full: Width = (_frame, out) => { out[0] = 1; };
+
+/** The shown vertices. */
+function vertices(tube: Tube): Vector3[] {
+  const positions = tube.geometry.getAttribute('position'), index = tube.geometry.getIndex()!;
+  const used = new Set<number>();
+  for (let i = 0; i < tube.geometry.drawRange.count; i += 1) used.add(index.getX(i));
+  return [...used].map((i) => new Vector3().fromBufferAttribute(positions, i));
+}
+
+function wave(count: number): number[][] {
+  return Array.from({ length: count }, (_, i) => [0.1 * i, Math.sin(0.05 * i), 0.3 * Math.cos(0.11 * i)]);
+}
+
+describe('tube', () => {
+  it('lies within its radius of the curve and reaches it everywhere', () => {
+    const points = wave(400), tube = new Tube({ radius: 0.05, lift: 0, sides: 8 });
+    tube.append(ink(points), full);
+    const path = points.map((p) => new Vector3(...(p as [number, number, number])));
+    for (const v of vertices(tube)) {
+      const d = Math.min(...path.map((p) => p.distanceTo(v)));
+      expect(d).toBeLessThan(0.05 + 1e-5); // single precision
+    }
+    for (const p of path) expect(Math.min(...vertices(tube).map((v) => v.distanceTo(p)))).toBeLessThan(0.06);
+  });
+
+  it('is the same however it was cut into pieces', () => {
+    const points = wave(700), all = ink(points);
+    const once = new Tube({ radius: 0.05, lift: 0.01, sides: 6 }), bits = new Tube({ radius: 0.05, lift: 0.01, sides: 6 });
+    once.append(all, full);
+    const next = random(8);
+    for (let count = 0; count < points.length;) {
+      count = Math.min(points.length, count + 1 + Math.floor(5 * next()));
+      bits.append({ ...all, count }, full);
+    }
+    expect(bits.geometry.drawRange.count).toBe(once.geometry.drawRange.count);
+    const a = once.geometry.getAttribute('position'), b = bits.geometry.getAttribute('position');
+    const last = (once.geometry.drawRange.count / 6 + 6) * 3;
+    for (let i = 0; i < last; i += 1) expect(b.array[i]).toBe(a.array[i]);
+  });
+
+  it('draws nothing between parts', () => {
+    const tube = new Tube({ radius: 0.05, lift: 0, sides: 8 });
+    tube.append(ink([[0, 0, 0], [1, 0, 0], [5, 0, 0], [6, 0, 0]], [0, 2]), full);
+    const positions = tube.geometry.getAttribute('position'), index = tube.geometry.getIndex()!;
+    const corner = [0, 1, 2].map(() => new Vector3());
+    for (let i = 0; i < tube.geometry.drawRange.count; i += 3) {
+      corner.forEach((c, k) => c.fromBufferAttribute(positions, index.getX(i + k)));
+      const area = corner[1]!.clone().sub(corner[0]!).cross(corner[2]!.clone().sub(corner[0]!)).length();
+      const middle = (corner[0]!.x + corner[1]!.x + corner[2]!.x) / 3;
+      if (middle > 1.06 && middle < 4.94) expect(area).toBeLessThan(1e-9);
+    }
+  });
+
+  it('shows what was kept only', () => {
+    const tube = new Tube({ radius: 0.05, lift: 0, sides: 8 });
+    const kept: [number, number][] = [[0, 2], [5, 9]];
+    tube.append(ink(wave(10)), full, (from, to) => kept.some(([a, b]) => from >= a && to <= b));
+    for (const v of vertices(tube)) expect(v.x < 0.2 + 0.06 || v.x > 0.5 - 0.06).toBe(true);
+    expect(vertices(tube).some((v) => v.x > 0.85)).toBe(true);
+  });
+
+  it('of one point is a ball, and of one place too', () => {
+    for (const points of [[[1, 2, 3]], [[1, 2, 3], [1, 2, 3]]]) {
+      const tube = new Tube({ radius: 0.1, lift: 0, sides: 8 });
+      tube.append(ink(points), full);
+      expect(vertices(tube).length).toBeGreaterThan(8);
+      for (const v of vertices(tube)) expect(v.distanceTo(new Vector3(1, 2, 3))).toBeLessThan(0.1 + 1e-5);
+    }
+  });
+
+  it('normals are unit and look outward', () => {
+    const tube = new Tube({ radius: 0.05, lift: 0, sides: 8 });
+    tube.append(ink([[0, 0, 0], [1, 0, 0], [2, 0, 0]]), full);
+    const positions = tube.geometry.getAttribute('position'), normals = tube.geometry.getAttribute('normal');
+    const rings = tube.geometry.drawRange.count / (6 * 8) + 1;
+    for (let i = 0; i < rings * 8; i += 1) {
+      const n = new Vector3().fromBufferAttribute(normals, i), p = new Vector3().fromBufferAttribute(positions, i);
+      expect(n.length()).toBeCloseTo(1, 5);
+      const centre = new Vector3(Math.min(2, Math.max(0, p.x)), 0, 0);
+      expect(n.dot(p.sub(centre))).toBeGreaterThan(0);
+    }
+  });
+});
+
+describe('creasedCorners', () => {
+  it('keeps a cube sharp and a flat quad flat', () => {
+    // Two faces of a box that meet at a right angle, two triangles each.
+    const positions = new Float64Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1]);
+    const faces = new Int32Array([0, 1, 2, 0, 2, 3, 4, 0, 3, 4, 3, 5]);
+    const { normals } = creasedCorners(positions, faces, 0.6);
+    for (let c = 0; c < 6; c += 1) expect([...normals.subarray(3 * c, 3 * c + 3)]).toEqual([0, 0, 1]);
+    for (let c = 6; c < 12; c += 1) expect(normals[3 * c]).toBeCloseTo(-1, 6);
+  });
+
+  it('smooths what is nearly flat', () => {
+    const positions = new Float64Array([0, 0, 0, 1, 0, 0.1, 1, 1, 0.1, 0, 1, 0, -1, 0, 0.1, -1, 1, 0.1]);
+    const faces = new Int32Array([0, 1, 2, 0, 2, 3, 4, 0, 3, 4, 3, 5]);
+    const { normals } = creasedCorners(positions, faces, 0.6);
+    expect(normals[0]).toBeCloseTo(normals[9 * 2 + 3]!, 6);
+    expect(Math.abs(normals[0]!)).toBeLessThan(0.06);
+  });
+
+  it('survives faces without area', () => {
+    const { normals } = creasedCorners(new Float64Array([0, 0, 0, 1, 0, 0, 2, 0, 0]), new Int32Array([0, 1, 2]), 0.6);
+    for (const n of normals) expect(Number.isFinite(n)).toBe(true);
+  });
+});
+
+describe('camera', () => {
+  it('shows the whole ball, whatever the window', () => {
+    for (const aspect of [0.5, 1, 2]) {
+      const camera = new PerspectiveCamera(35, aspect), rig = new CameraRig(camera);
+      rig.frame(1, 2, 3, 0.5, 0.3, 0.2);
+      const next = random(9);
+      for (let i = 0; i < 200; i += 1) {
+        const p = new Vector3(next() - 0.5, next() - 0.5, next() - 0.5).normalize().multiplyScalar(0.5).add(new Vector3(1, 2, 3)).project(camera);
+        expect(Math.abs(p.x)).toBeLessThan(1.001);
+        expect(Math.abs(p.y)).toBeLessThan(1.001);
+      }
+    }
+  });
+
+  it('zooms about a point of the window, which stays', () => {
+    const camera = new PerspectiveCamera(35, 1.5), rig = new CameraRig(camera);
+    rig.frame(0, 0, 0, 1, 0.4, 0.3);
+    rig.instant = true;
+    // A point of the plane through the centre, under (0.5, -0.3).
+    const depth = rig.distance, half = Math.tan((35 / 360) * Math.PI);
+    const under = new Vector3(0.5 * 1.5 * half * depth, -0.3 * half * depth, -depth).applyMatrix4(camera.matrixWorld);
+    rig.zoom(0.6, 0.5, -0.3);
+    rig.update(0.016);
+    const p = under.clone().project(camera);
+    expect(p.x).toBeCloseTo(0.5, 6);
+    expect(p.y).toBeCloseTo(-0.3, 6);
+  });
+
+  it('follows softly and comes to rest', () => {
+    const camera = new PerspectiveCamera(35, 1), rig = new CameraRig(camera);
+    rig.frame(0, 0, 0, 1, 0, 0);
+    rig.orbit(1, 0.5);
+    let steps = 0;
+    while (rig.update(1 / 60)) {
+      steps += 1;
+      expect(steps).toBeLessThan(120);
+    }
+    expect(steps).toBeGreaterThan(3);
+  });
+});

@@ -1,0 +1,282 @@
+import { Mimicry } from 'mimicry';
+import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { Autosave, type Shelf } from '../../src/drawing/autosave';
+import type { Drawing } from '../../src/drawing/document';
+import { keptCurves, readDrawing, readDrawingModel, writeDrawing } from '../../src/drawing/drawing_file';
+import { kController, kHead, kPressure, makeFrame } from '../../src/drawing/frame';
+import { prepareModel, shapeModel } from '../../src/engine/model';
+import { Studio, type StudioView } from '../../src/studio';
+
+/** Shows nothing and remembers what it was asked to show. */
+class NullView implements StudioView {
+  drawing: Drawing = [];
+  kept: string[] = [];
+  live = new Set<number>();
+  inkCalls = 0;
+  replayed: string | null = null;
+  showModel(): void { this.drawing = []; }
+  place(): void {}
+  beginInk(copy: number): void { this.live.add(copy); }
+  growInk(): void { this.inkCalls += 1; }
+  keepInk(copy: number, id: string): void { this.live.delete(copy); this.kept.push(id); }
+  dropInk(): void { this.live.clear(); }
+  showDrawing(drawing: Drawing): void { this.drawing = drawing; }
+  showReplay(curve: { technique: string } | null): void { this.replayed = curve?.technique ?? null; }
+}
+
+let core: Mimicry;
+let view: NullView;
+let studio: Studio;
+
+beforeAll(async () => { core = await new Mimicry().ready; });
+beforeEach(() => {
+  view = new NullView();
+  studio = new Studio(core, view);
+  studio.open(shapeModel(core, 'sphere'));
+});
+
+/** A stroke 3 cm in front of the sphere, to the right. */
+function draw(from = -0.05, to = 0.05, y = 0, count = 30): void {
+  const frame = makeFrame();
+  const place = studio.state.now.modelToWorld;
+  const [cx, cy, cz] = [place[4]!, place[5]!, place[6]!]; // the sphere is centred
+  studio.beginStroke();
+  for (let i = 0; i < count; i += 1) {
+    frame[0] = i / 90;
+    frame.set([cx, cy, cz + 1], kHead);
+    frame.set([cx + from + ((to - from) * i) / (count - 1), cy + y, cz + place[7]! + 0.03], kController);
+    frame[kPressure] = -1;
+    studio.addFrame(frame);
+  }
+  studio.endStroke();
+}
+
+describe('studio', () => {
+  it('draws strokes, one step of the history each', () => {
+    draw();
+    draw(0.05, -0.05, 0.04);
+    const { history } = studio.state.now;
+    expect(history.drawing).toHaveLength(2);
+    expect(history.past).toHaveLength(2);
+    expect(view.kept).toEqual(history.drawing.map((d) => d.id));
+    expect(view.live.size).toBe(0);
+    expect(view.drawing).toBe(history.drawing);
+    for (const drawn of history.drawing) {
+      expect(drawn.curve.stroke).toBe(drawn.id);
+      expect(drawn.curve.pointCount).toBe(30);
+      expect(drawn.stroke.frames.length).toBe(30 * 17);
+    }
+  });
+
+  it('a stroke that meets nothing leaves no trace', () => {
+    studio.set({ technique: 'spraycan' });
+    const frame = makeFrame();
+    frame.set([0, 50, 0], kController);
+    studio.beginStroke();
+    studio.addFrame(frame);
+    studio.endStroke();
+    expect(studio.state.now.history.past).toHaveLength(0);
+    expect(view.live.size).toBe(0);
+  });
+
+  it('a cancelled stroke leaves none either', () => {
+    studio.beginStroke();
+    studio.cancelStroke();
+    expect(studio.isDrawing).toBe(false);
+    expect(studio.state.now.history.past).toHaveLength(0);
+  });
+
+  it('frames that cannot be used are passed over', () => {
+    studio.beginStroke();
+    const frame = makeFrame();
+    frame[kController] = NaN;
+    expect(studio.addFrame(frame)).toBe(false);
+    studio.endStroke();
+    expect(studio.state.now.drawing).toBe(false);
+  });
+
+  it('mirrored copies are projected anew and lie mirrored', () => {
+    studio.set({ mirror: 'x' });
+    draw(0.02, 0.1);
+    const [own, copy] = studio.state.now.history.drawing;
+    expect(copy!.mirror).toBe('x');
+    const n = own!.curve.pointCount;
+    expect(copy!.curve.pointCount).toBe(n);
+    for (let i = 0; i < n; i += 1) {
+      const p = own!.curve.point(i).position, q = copy!.curve.point(i).position;
+      // The sphere's triangles are not mirror images of each other: as near as their flatness.
+      expect(Math.hypot(p[0] + q[0], p[1] - q[1], p[2] - q[2])).toBeLessThan(0.01);
+    }
+    studio.undo();
+    expect(studio.state.now.history.drawing).toHaveLength(0);
+    studio.redo();
+    expect(studio.state.now.history.drawing).toHaveLength(2);
+  });
+
+  it('switching techniques holds from the next stroke on', () => {
+    draw();
+    studio.set({ technique: 'snap' });
+    draw(0.05, -0.05, 0.04);
+    expect(studio.state.now.history.drawing.map((d) => d.curve.technique)).toEqual(['mimicry-live', 'snap']);
+    studio.redrawLast('anchored-closest');
+    expect(studio.state.now.history.drawing.map((d) => d.curve.technique)).toEqual(['mimicry-live', 'anchored-closest']);
+    studio.undo();
+    expect(studio.state.now.history.drawing.at(-1)!.curve.technique).toBe('snap');
+  });
+
+  it('compares the last stroke, and stops', () => {
+    studio.set({ compare: 'spraycan' });
+    expect(view.replayed).toBe(null);
+    draw();
+    expect(view.replayed).toBe('spraycan');
+    studio.set({ compare: 'snap' });
+    expect(view.replayed).toBe('snap');
+    studio.undo();
+    expect(view.replayed).toBe(null);
+    studio.redo();
+    studio.set({ compare: null });
+    expect(view.replayed).toBe(null);
+  });
+
+  it('techniques that need a bake are offered with one only', () => {
+    expect(studio.offers('mimicry')).toBe(false);
+    expect(studio.offers('mimicry-live')).toBe(true);
+    expect(() => studio.addEmbedding(new Uint8Array([1, 2, 3]), 'bad.mimicry')).toThrow(/bad\.mimicry/);
+    expect(studio.offers('mimicry')).toBe(false);
+  });
+
+  it('a stroke while the model moves is the one that the model saw', () => {
+    draw();
+    const still = studio.state.now.history.drawing[0]!;
+    const frame = makeFrame();
+    const start = studio.state.now.modelToWorld.slice();
+    studio.beginStroke();
+    for (let i = 0; i < 30; i += 1) {
+      const place = start.slice();
+      place[4] = start[4]! + 0.01 * i;
+      studio.place(place);
+      frame[0] = i / 90;
+      frame.set([start[4]! + 0.01 * i, start[5]!, start[6]! + 1], kHead);
+      frame.set([start[4]! + 0.01 * i - 0.05 + (0.1 * i) / 29, start[5]!, start[6]! + start[7]! + 0.03], kController);
+      studio.addFrame(frame);
+    }
+    studio.endStroke();
+    const moved = studio.state.now.history.drawing[1]!;
+    for (let i = 0; i < 30; i += 1) {
+      const p = still.curve.point(i).position, q = moved.curve.point(i).position;
+      expect(Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2])).toBeLessThan(1e-12);
+    }
+  });
+
+  it('a model that cannot be drawn on leaves everything as it was', () => {
+    draw();
+    const before = studio.state.now;
+    expect(() => prepareModel(core, { positions: new Float64Array([0, 0, 0, 1, NaN, 0, 0, 1, 0]), faces: new Int32Array([0, 1, 2]), metresPerUnit: 1 }, 'nan.obj', { shape: 'x' })).toThrow(/nan\.obj: 1 vertex has/);
+    expect(() => prepareModel(core, { positions: new Float64Array(9), faces: new Int32Array(0), metresPerUnit: 1 }, 'points.ply', { shape: 'x' })).toThrow(/points\.ply: there are no triangles/);
+    expect(studio.state.now).toBe(before);
+  });
+
+  it('recorded strokes are imported under ids of their own', () => {
+    draw();
+    const strokes = core.readStrokes(core.writeStrokes(studio.state.now.history.drawing.map((d) => d.stroke)), 's.json');
+    expect(studio.importStrokes(strokes)).toBe(1);
+    const [a, b] = studio.state.now.history.drawing;
+    expect(b!.id).toBe(`${a!.id}-2`);
+    expect([...b!.curve.ink.integers]).toEqual([...a!.curve.ink.integers]);
+  });
+
+  it('erasing from press to release is one step, and what was erased is not exported', () => {
+    draw(-0.1, 0.1, 0, 60);
+    const p = studio.state.now.history.drawing[0]!.curve.point(30).position;
+    studio.set({ tool: 'erase part' });
+    studio.beginErase();
+    studio.eraseAt(...p, 0.02);
+    studio.eraseAt(p[0] + 0.03, p[1], p[2], 0.02);
+    studio.endErase();
+    expect(studio.state.now.history.past).toHaveLength(2);
+    const { curves } = keptCurves(studio.state.now.history.drawing);
+    expect(curves).toHaveLength(2);
+    expect(curves[0]!.pointCount + curves[1]!.pointCount).toBeLessThan(60);
+    for (const curve of curves) curve.dispose();
+    studio.undo();
+    expect(studio.state.now.history.drawing[0]!.kept).toHaveLength(1);
+  });
+});
+
+describe('drawing files', () => {
+  it('hold everything', () => {
+    studio.set({ mirror: 'x' });
+    draw();
+    const { history, model } = studio.state.now;
+    const bytes = writeDrawing(core, studio.target!, model!.source, history.drawing);
+    const { source, rest } = readDrawingModel(bytes, 'd.mimicry-drawing');
+    expect(source).toEqual({ shape: 'sphere' });
+    const read = readDrawing(core, studio.target!, rest, 'd.mimicry-drawing');
+    expect(read.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }))).toEqual(history.drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] })));
+  });
+
+  it('that are damaged or of another kind are refused with a sentence', () => {
+    const text = (s: string): Uint8Array => new TextEncoder().encode(s);
+    expect(() => readDrawingModel(text('{"format":'), 'x')).toThrow(/x: the file is cut off/);
+    expect(() => readDrawingModel(text('{"format":"mimicry-drawing","version":9}'), 'x')).toThrow(/version 9/);
+    expect(() => readDrawingModel(text('{"format":"mimicry-drawing","version":1}'), 'x')).toThrow(/which model/);
+  });
+});
+
+describe('autosave', () => {
+  function memory(): Shelf & { items: Map<string, unknown>; writes: string[][] } {
+    const items = new Map<string, unknown>(), writes: string[][] = [];
+    return {
+      items, writes,
+      read: (key) => Promise.resolve(items.get(key)),
+      write: (put, remove) => {
+        writes.push([...put.keys()]);
+        for (const key of remove) items.delete(key);
+        for (const [key, value] of put) items.set(key, value);
+        return Promise.resolve();
+      },
+    };
+  }
+
+  it('brings a drawing back, and writes only what is new', async () => {
+    const shelf = memory(), autosave = new Autosave(shelf, () => undefined);
+    const save = async (): Promise<void> => {
+      const { model, history } = studio.state.now;
+      autosave.save(model!, studio.target!, history.drawing);
+      await autosave.settled();
+    };
+    draw();
+    await save();
+    draw(0.05, -0.05, 0.04);
+    await save();
+    expect(shelf.writes[1]!.filter((key) => key.includes(':'))).toHaveLength(2);
+    studio.undo();
+    await save();
+    expect([...shelf.items.keys()].filter((key) => key.startsWith('stroke:'))).toHaveLength(1);
+    studio.redo();
+    await save();
+
+    const later = new Autosave(shelf, () => undefined);
+    const last = await later.lastModel();
+    expect(last!.model.source).toEqual({ shape: 'sphere' });
+    const drawing = await later.drawing(studio.target!, last!.model.source);
+    expect(drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }))).toEqual(studio.state.now.history.drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] })));
+  });
+
+  it('says when the storage is full, and goes on', async () => {
+    const said: (string | null)[] = [];
+    let full = true;
+    const shelf = memory();
+    const autosave = new Autosave({ ...shelf, write: (put, remove) => (full ? Promise.reject(new DOMException('no', 'QuotaExceededError')) : shelf.write(put, remove)) }, (s) => said.push(s));
+    draw();
+    const { model, history } = studio.state.now;
+    autosave.save(model!, studio.target!, history.drawing);
+    await autosave.settled();
+    expect(said.at(-1)).toMatch(/storage is full/);
+    full = false;
+    autosave.save(model!, studio.target!, history.drawing);
+    await autosave.settled();
+    expect(said.at(-1)).toBe(null);
+    expect(shelf.items.has('entries')).toBe(true);
+  });
+});
