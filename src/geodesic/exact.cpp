@@ -6,6 +6,7 @@
 #include <mimicry/base/error.h>
 
 #include "geodesic/exact_state.h"
+#include "geodesic/plane.h"
 
 namespace mimicry::geodesic {
 
@@ -13,10 +14,6 @@ namespace mimicry::geodesic {
 static constexpr double kSame = 1e-12;
 // A source nearer to an edge than this part of the edge's length all but lies on it.
 static constexpr double kOnTheEdge = 1e-7;
-
-static double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // As numbers: vectors just written one by one are slow to read as a pair.
 static double dot(const Vec2& a, const Vec2& b) {

@@ -6,6 +6,8 @@
 #include <mimicry/geodesic/site.h>
 #include <mimicry/geodesic/straightest.h>
 
+#include "geodesic/plane.h"
+
 namespace mimicry::geodesic {
 namespace {
 
@@ -13,10 +15,6 @@ namespace {
 constexpr double kAtVertex = 1e-10;
 // Height of a face without area, relative to its longest edge.
 constexpr double kLeastHeight = 1e-13;
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // A face in the plane: the tail of half-edge `base` at (0, 0), its head on the x axis. x, y are the
 // axes in space.

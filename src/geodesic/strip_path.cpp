@@ -4,12 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "geodesic/plane.h"
+
 namespace mimicry::geodesic {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double angle_between(const Vec3& a, const Vec3& b) {
   const double sine = a.cross(b).norm();

@@ -1,5 +1,7 @@
 // replay.mjs MIMICRY PACKAGE: the same recorded strokes through the command line and through the package
-// give the same curves: equal faces, positions within 1e-9 of the diagonal.
+// give the same curves: equal faces, positions within 1e-9 of the diagonal, and to the last bit wherever
+// nothing but arithmetic and square roots is involved. (Vertex normals and tangents are weighted with the
+// platform's arc cosines and cosines; the techniques on smooth points use them.)
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -17,13 +19,15 @@ const work = mkdtempSync(join(tmpdir(), 'mimicry-replay-'));
 try {
   const at = (name) => join(work, name);
   const native = (...args) => execFileSync(program, args, { stdio: ['ignore', 'ignore', 'inherit'] });
-  native('simulate', 'shape:hand', '--out', at('strokes.json'));
-  native('bake', 'shape:hand', '--samples', '200', '--out', at('hand.mimicry'));
-  native('project', 'shape:hand', at('strokes.json'), '--embedding', at('hand.mimicry'), '--formats', 'json', '--out', work);
+  // A file, as shapes are made with sines of the platform's.
+  native('shapes', 'hand', '--out', at('hand.obj'));
+  native('simulate', at('hand.obj'), '--shape', 'hand', '--out', at('strokes.json'));
+  native('bake', at('hand.obj'), '--samples', '200', '--out', at('hand.mimicry'));
+  native('project', at('hand.obj'), at('strokes.json'), '--embedding', at('hand.mimicry'), '--formats', 'json', '--out', work);
   const expected = JSON.parse(readFileSync(at('curves.json'), 'utf8'));
 
   const mimicry = await new Mimicry().ready;
-  const target = mimicry.createTarget(mimicry.shape('hand'), 'hand');
+  const target = mimicry.createTarget(mimicry.readMesh(readFileSync(at('hand.obj')), 'hand.obj'), 'hand.obj');
   const baked = target.withEmbedding(readFileSync(at('hand.mimicry')), 'hand.mimicry');
   const strokes = mimicry.readStrokes(readFileSync(at('strokes.json')), 'strokes.json');
   const curves = mimicry.techniques.flatMap(({ name }) => {
@@ -34,6 +38,8 @@ try {
 
   assert.equal(got.curves.length, expected.curves.length);
   const tolerance = 1e-9 * target.diagonal;
+  const exact = new Set(['occlude', 'spraycan', 'head-centric', 'snap', 'anchored-closest', 'mimicry-planar', 'anchored-ray-plane', 'anchored-ray-transport']);
+  const withoutNormals = ({ points, ...rest }) => JSON.stringify({ ...rest, points: points.map(({ normal, ...p }) => p) });
   let same = 0;
   let largest = 0;
   const different = new Set();
@@ -41,7 +47,7 @@ try {
     const other = expected.curves[i];
     const label = `${other.technique}, stroke ${other.stroke}`;
     assert.equal(curve.technique, other.technique);
-    if (JSON.stringify(curve) === JSON.stringify(other)) same += 1;
+    if (withoutNormals(curve) === withoutNormals(other)) same += 1;
     else different.add(curve.technique);
     assert.equal(curve.points.length, other.points.length, label);
     curve.points.forEach((p, k) => {
@@ -53,7 +59,8 @@ try {
       if (p.face !== q.face) assert.ok(Math.min(...p.bary) <= 1e-9, `${label}, point ${k}: face ${p.face}, not ${q.face}`);
     });
   });
-  console.log(`${same} of ${got.curves.length} curves are the same to the last bit; largest distance ${largest}`, [...different].join(' '));
+  for (const technique of different) assert.ok(!exact.has(technique), `${technique} is not the same to the last bit`);
+  console.log(`${same} of ${got.curves.length} curves are the same to the last bit; largest distance ${largest} (${[...different].join(' ')})`);
 } finally {
   rmSync(work, { recursive: true });
 }

@@ -23,10 +23,10 @@ inline Float4 abs(Float4 a) {
 }
 /// Bit k is set where lane k of the comparison holds.
 inline unsigned bits(Mask4 m) {
-#if defined(__SSE2__)
-  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(m)));
-#elif defined(__wasm_simd128__)
+#if defined(__wasm_simd128__)
   return static_cast<unsigned>(__builtin_wasm_bitmask_i32x4(m));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(m)));
 #else
   return (m[0] & 1U) | (m[1] & 2U) | (m[2] & 4U) | (m[3] & 8U);
 #endif
