@@ -5,24 +5,12 @@ import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from 'three
 import { MeshBVH } from 'three-mesh-bvh';
 
 // Enough calls in one reading of the clock that its step (5 us in a page) does not show.
-const kBatch = 20;
+const kBatch = 50;
 
 function statistics(times_us) {
   const sorted = Float64Array.from(times_us).sort();
   const at = (part) => sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))];
   return { median: at(0.5), p99: at(0.99), largest: sorted.at(-1) };
-}
-
-/** Each call's time; least of three passes, so that another program's turn does not count. */
-function timed(count, call) {
-  const times = new Float64Array(count).fill(Infinity);
-  for (let pass = 0; pass < 3; pass += 1)
-    for (let i = 0; i < count; i += 1) {
-      const start = performance.now();
-      call(i);
-      times[i] = Math.min(times[i], 1000 * (performance.now() - start));
-    }
-  return statistics(times);
 }
 
 /** Means of batches: three passes, the least of each. */
