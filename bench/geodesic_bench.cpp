@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,6 +127,18 @@ void LocalPathBunny(benchmark::State& state) {
     benchmark::DoNotOptimize(path.length);
   }
   state.counters["proven"] = static_cast<double>(proven) / static_cast<double>(i);
+
+  std::vector<double> each;
+  for (const auto& [a, b] : pairs) {
+    crossings.clear();
+    const auto start = std::chrono::steady_clock::now();
+    finder.find(a, b, crossings);
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    each.push_back(taken.count());
+  }
+  std::sort(each.begin(), each.end());
+  state.counters["median_ns"] = each[each.size() / 2];
+  state.counters["p99_ns"] = each[each.size() * 99 / 100];
 }
 BENCHMARK(LocalPathBunny)->Arg(30)->Arg(100)->Arg(300)->Arg(1000);
 

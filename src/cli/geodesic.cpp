@@ -22,7 +22,7 @@ namespace {
 struct Arguments {
   std::string mesh;
   std::vector<std::string> from;
-  std::string to;
+  std::optional<std::string> to;
   std::string out;
   double radius = kInfinity;
   bool allow_nonmanifold = false;
@@ -105,7 +105,7 @@ void run(const Arguments& args, int& status) {
   std::vector<geodesic::Source> sources;
   for (const std::string& text : args.from) sources.push_back({parse_point(text, target)});
   std::optional<SurfacePoint> to;
-  if (!args.to.empty()) to = parse_point(args.to, target);
+  if (args.to) to = parse_point(*args.to, target);
 
   geodesic::ExactGeodesics geodesics(target.mesh(), target.half_edges());
   geodesic::ExactOptions options;
@@ -138,8 +138,9 @@ void add_geodesic(CLI::App& app, int& status) {
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command
       ->add_option("--from", args->from,
-                   "Where from: v17 (a vertex) or face,b0,b1,b2; several: the nearest counts")
-      ->required();
+                   "Where from: v17 (a vertex) or face,b0,b1,b2; repeated: the nearest counts")
+      ->required()
+      ->allow_extra_args(false);  // what follows may be the mesh
   command->add_option("--to", args->to,
                       "Where to: a path is written; without it all distances are");
   command->add_option("--radius", args->radius, "Look no farther, mesh units")

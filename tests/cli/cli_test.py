@@ -145,7 +145,10 @@ class CommandLine(unittest.TestCase):
             rows = file.read().splitlines()
         self.assertEqual(rows[0], "vertex,distance")
         self.assertAlmostEqual(float(rows[25].split(",")[1]), 8 ** 0.5, places=12)
+        run("geodesic", "--from", "v0", "--from", "v24", grid, "-o", self.path("d.csv"))
         self.assertIn("v99", run("geodesic", grid, "--from", "v99", "-o", out, expect=3).stderr)
+        self.assertIn("point ''", run("geodesic", grid, "--from", "v1", "--to", "", "-o", out,
+                                      expect=3).stderr)
         apart = run("geodesic", "shape:two-spheres:2", "--from", "v0", "--to", "v80", "-o",
                     self.path("none.json"), expect=5)
         self.assertIn("no path", apart.stdout)
