@@ -1,0 +1,20 @@
+#include <cstdint>
+#include <string_view>
+
+#include <mimicry/base/error.h>
+#include <mimicry/io/study_recording.h>
+
+// The first byte chooses the file.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mimicry;
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    if (data[0] == 's')
+      (void)io::write_study_sequence(io::read_study_sequence(text, "input"));
+    else
+      (void)io::write_recording(io::read_recording(text, "input"));
+  } catch (const Error&) {
+  }
+  return 0;
+}
