@@ -10,6 +10,9 @@
 namespace mimicry::study {
 namespace {
 
+// A straight curve turns by rounding only; no bend is that small.
+constexpr double kLeastTurn_rad = 1e-6;
+
 // A curve's points along its length in metres, and how it bends at each.
 struct Profile {
   std::vector<double> places;
@@ -46,7 +49,7 @@ Profile profile_of(const TriangleMesh& mesh, const HalfEdges& half_edges,
         std::abs(turned[static_cast<std::size_t>(last)] - turned[static_cast<std::size_t>(first)]);
     const double width = is_whole ? window : to - from;
     profile.places.push_back(s);
-    profile.bending.push_back(width > 0.0 ? turn / width : 0.0);
+    profile.bending.push_back(width > 0.0 && turn > kLeastTurn_rad ? turn / width : 0.0);
   }
   for (std::size_t i = 1; i < profile.places.size(); ++i)
     profile.mean += 0.5 * (profile.bending[i - 1] + profile.bending[i]) *

@@ -21,9 +21,9 @@ bool crosses(const Drawn& drawn, const ProjectedCurve& curve) {
 TEST(SelfCrossing, OfALoopAndNotOfAWave) {
   const Drawn grid{make_grid(10)};
   std::vector<Vec3> loop, wave;
-  for (int i = 0; i <= 40; ++i) {
+  for (int i = 0; i <= 50; ++i) {
     const double t = 0.1 * i;
-    wave.push_back(Vec3(-0.8 + 0.4 * t, 0.3 * std::sin(3.0 * t), 0));
+    wave.push_back(Vec3(-0.8 + 0.3 * t, 0.3 * std::sin(3.0 * t), 0));
     // A trochoid: it turns back on itself.
     loop.push_back(Vec3(-0.5 + 0.2 * t - 0.35 * std::sin(2.0 * t), 0.3 * std::cos(2.0 * t), 0));
   }
@@ -68,14 +68,12 @@ TEST(SelfCrossing, EqualsAllPairsOnAPlane) {
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(round);
     std::vector<Vec3> points;
-    Vec3 at(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0);
+    Vec3 at(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0);
     double heading = random.uniform(0.0, 6.0);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 21; ++i) {
       points.push_back(at);
-      heading += random.uniform(-0.9, 0.9);
-      at += 0.12 * Vec3(std::cos(heading), std::sin(heading), 0);
-      at = at.cwiseMax(-0.95).cwiseMin(0.95);
-      at.z() = 0.0;
+      heading += random.uniform(-1.5, 1.5);
+      at += 0.04 * Vec3(std::cos(heading), std::sin(heading), 0);
     }
     bool expected = false;
     const auto side = [](const Vec3& a, const Vec3& b, const Vec3& c) {
