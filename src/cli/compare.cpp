@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <mimicry/study/comparison.h>
 
 #include "cli/commands.h"
+#include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/paired_rows.h"
 
@@ -30,17 +30,6 @@ struct Arguments {
   bool percentile = false;
   bool json = false;
 };
-
-std::string significant(double value) {
-  if (!std::isfinite(value)) return "-";
-  const double size = std::abs(value);
-  return fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 ? 2 : 4);
-}
-
-std::string probability(double p) {
-  if (!std::isfinite(p)) return "-";
-  return p < 0.001 ? "<.001" : fixed(p, 3).substr(p < 1 ? 1 : 0);
-}
 
 void print_group(const PairedGroup& group, const std::vector<study::Comparison>& comparisons,
                  const Arguments& args) {
@@ -60,40 +49,6 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
                "rank-biserial", level + " from", "to"},
               rows);
   std::printf("\n");
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json to_json(const study::Moments& m) {
-  return {{"mean", number(m.mean)},
-          {"standard_deviation", number(m.standard_deviation)},
-          {"median", number(m.median)}};
-}
-
-Json to_json(const PairedGroup& group, const std::vector<study::Comparison>& comparisons) {
-  Json list = Json::array();
-  for (const study::Comparison& c : comparisons)
-    list.push_back({{"measure", c.name},
-                    {"pairs", c.pairs},
-                    {"a", to_json(c.a)},
-                    {"b", to_json(c.b)},
-                    {"differences", c.test.differences},
-                    {"w_plus", c.test.w_plus},
-                    {"z", c.test.z},
-                    {"p", c.test.p()},
-                    {"p_normal", c.test.p_normal},
-                    {"p_exact", c.test.p_exact ? Json(*c.test.p_exact) : Json()},
-                    {"p_holm", number(c.p_holm)},
-                    {"effect_r", c.test.effect_r},
-                    {"rank_biserial", c.test.rank_biserial},
-                    {"difference", {number(c.difference.low), number(c.difference.high)}}});
-  return {{"group", group.name},
-          {"pairs", group.pairs},
-          {"left_out", group.failed},
-          {"unpaired", group.unpaired},
-          {"measures", list}};
 }
 
 void run(Arguments args) {

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   add_simulate(app, status);
   add_project(app, status);
   add_render(app, status);
+  add_report(app, status);
   add_geodesic(app, status);
   add_bake(app, status);
   add_compare(app, status);

@@ -66,17 +66,6 @@ struct Outcome {
   std::vector<std::string> notes;
 };
 
-const char* const kExtensions[] = {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"};
-
-std::string find_mesh_file(const std::string& folder, const std::string& name) {
-  for (const char* extension : kExtensions) {
-    const auto path = std::filesystem::path(folder) / (name + extension);
-    if (std::filesystem::exists(path)) return path.string();
-  }
-  throw Error(ErrorKind::io,
-              folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb)");
-}
-
 void load_shape(StudyShape& shape, const std::string& folder, const study::TargetSet& set,
                 const std::string& file) {
   try {

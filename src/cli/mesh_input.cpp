@@ -57,6 +57,15 @@ NamedMesh load_mesh(const std::string& spec) {
   return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
 }
 
+std::string find_mesh_file(const std::string& folder, const std::string& name) {
+  for (const char* extension : {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}) {
+    const auto path = std::filesystem::path(folder) / (name + extension);
+    if (std::filesystem::exists(path)) return path.string();
+  }
+  throw Error(ErrorKind::io,
+              folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb, .gltf)");
+}
+
 spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold) {
   try {
     return spatial::Target(named.mesh, {allow_nonmanifold});

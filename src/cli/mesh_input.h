@@ -23,6 +23,9 @@ struct NamedMesh {
 /// Throws Error where the file or shape cannot be had.
 NamedMesh load_mesh(const std::string& spec);
 
+/// The mesh file of this name in a folder, whatever its kind. Throws Error(io) where there is none.
+std::string find_mesh_file(const std::string& folder, const std::string& name);
+
 /// A target of the mesh; errors name the mesh and, for what --allow-nonmanifold mends, that option.
 spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold);
 

@@ -41,12 +41,6 @@ class Columns {
   const std::string& name_;
 };
 
-// The study writes methods as numbers.
-bool is_method(const std::string& cell, const std::string& wanted) {
-  return cell == wanted || (cell == "0" && wanted == "spraycan") ||
-         (cell == "1" && wanted == "mimicry");
-}
-
 bool has_failed(const Row& row, const std::vector<std::size_t>& filters) {
   return std::any_of(filters.begin(), filters.end(), [&row](std::size_t column) {
     const std::string& cell = row[column];
@@ -76,6 +70,8 @@ PairedGroup group_of(const std::string& name, const std::vector<Pair>& pairs,
       continue;
     }
     ++group.pairs;
+    group.rows.emplace_back(static_cast<std::size_t>(pair.a - table.rows.data()),
+                            static_cast<std::size_t>(pair.b - table.rows.data()));
     const auto number = [](const std::string& cell) {
       return io::parse_double(cell).value_or(std::numeric_limits<double>::quiet_NaN());
     };
@@ -101,6 +97,11 @@ std::vector<std::size_t> measure_columns(const io::CsvTable& table, const Column
 }
 
 }  // namespace
+
+bool is_method(const std::string& cell, const std::string& wanted) {
+  return cell == wanted || (cell == "0" && wanted == "spraycan") ||
+         (cell == "1" && wanted == "mimicry");
+}
 
 std::vector<PairedGroup> pair_rows(const io::CsvTable& table, const PairingOptions& options,
                                    const std::string& name) {

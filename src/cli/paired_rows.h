@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mimicry/io/csv.h>
@@ -25,10 +26,15 @@ struct PairingOptions {
 struct PairedGroup {
   std::string name;  ///< "task tracing"; "all" for the rows of every group
   std::vector<study::PairedMeasure> measures;
+  /// Where the two strokes of each pair stand in the table.
+  std::vector<std::pair<std::size_t, std::size_t>> rows;
   std::size_t pairs = 0;
   std::size_t failed = 0;    ///< pairs of which one side or both failed a filter or were rejected
   std::size_t unpaired = 0;  ///< rows of one method without one of the other
 };
+
+/// The column's cell names this method: by its name or by the study's number.
+bool is_method(const std::string& cell, const std::string& wanted);
 
 /// Rows of the two methods belong together where participant, stroke, shape, curve, repeat and task
 /// (those that the table has) are equal. The groups in the order of their values, then all where

@@ -1,4 +1,4 @@
-#include "render/font.h"
+#include <mimicry/render/text.h>
 
 // MIMICRY_FONT is the path of the font file, set by the build.
 asm(".section .rodata\n"
@@ -6,17 +6,19 @@ asm(".section .rodata\n"
     "mimicry_font_data:\n"
     ".incbin \"" MIMICRY_FONT
     "\"\n"
+    "mimicry_font_data_end:\n"
     ".previous\n");
 
 namespace mimicry::render {
 namespace {
 extern "C" {
-[[gnu::visibility("hidden")]] extern const unsigned char mimicry_font_data[];
+[[gnu::visibility("hidden")]] extern const char mimicry_font_data[];
+[[gnu::visibility("hidden")]] extern const char mimicry_font_data_end[];
 }
 }  // namespace
 
-const unsigned char* font_data() {
-  return mimicry_font_data;
+std::string_view font_file() {
+  return {mimicry_font_data, static_cast<std::size_t>(mimicry_font_data_end - mimicry_font_data)};
 }
 
 }  // namespace mimicry::render

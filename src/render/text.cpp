@@ -7,8 +7,6 @@
 #include <mimicry/base/float_traps.h>
 #include <mimicry/render/text.h>
 
-#include "render/font.h"
-
 #define STBTT_STATIC
 #define STB_TRUETYPE_IMPLEMENTATION
 #if defined(__GNUC__)
@@ -53,7 +51,8 @@ int next_character(std::string_view& text) {
 
 stbtt_fontinfo open_font() {
   stbtt_fontinfo font;
-  [[maybe_unused]] const int good = stbtt_InitFont(&font, font_data(), 0);
+  [[maybe_unused]] const int good =
+      stbtt_InitFont(&font, reinterpret_cast<const unsigned char*>(font_file().data()), 0);
   assert(good != 0);
   return font;
 }

@@ -15,4 +15,7 @@ double text_width(std::string_view text, double size_px);
 void draw_text(Image& image, std::string_view text, double x, double y, double size_px,
                const Color& color);
 
+/// The font as a TrueType file: DejaVu Sans, linked into the program.
+std::string_view font_file();
+
 }  // namespace mimicry::render

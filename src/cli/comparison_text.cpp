@@ -1,0 +1,63 @@
+#include "cli/comparison_text.h"
+
+#include <cmath>
+
+#include "cli/console.h"
+
+namespace mimicry::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const study::Moments& m) {
+  return {{"mean", json_number(m.mean)},
+          {"standard_deviation", json_number(m.standard_deviation)},
+          {"median", json_number(m.median)}};
+}
+
+}  // namespace
+
+std::string significant(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  return fixed(value, size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 ? 2 : size >= 0.01 ? 3 : 4);
+}
+
+std::string probability(double p) {
+  if (!std::isfinite(p)) return "-";
+  if (p < 0.001) return "<.001";
+  const std::string text = fixed(p, 3);
+  return text.front() == '0' ? text.substr(1) : text;
+}
+
+Json json_number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json to_json(const PairedGroup& group, const std::vector<study::Comparison>& comparisons) {
+  Json list = Json::array();
+  for (const study::Comparison& c : comparisons)
+    list.push_back(
+        {{"measure", c.name},
+         {"pairs", c.pairs},
+         {"a", to_json(c.a)},
+         {"b", to_json(c.b)},
+         {"differences", c.test.differences},
+         {"w_plus", c.test.w_plus},
+         {"z", c.test.z},
+         {"p", c.test.p()},
+         {"p_normal", c.test.p_normal},
+         {"p_exact", c.test.p_exact ? Json(*c.test.p_exact) : Json()},
+         {"p_holm", json_number(c.p_holm)},
+         {"effect_r", c.test.effect_r},
+         {"rank_biserial", c.test.rank_biserial},
+         {"difference", {json_number(c.difference.low), json_number(c.difference.high)}}});
+  return {{"group", group.name},
+          {"pairs", group.pairs},
+          {"left_out", group.failed},
+          {"unpaired", group.unpaired},
+          {"measures", list}};
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,151 @@
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+
+#include "cli/commands.h"
+#include "cli/mesh_input.h"
+#include "cli/report/bundle.h"
+#include "cli/report/figure_data.h"
+#include "cli/report/figure_files.h"
+#include "cli/report/gallery.h"
+#include "cli/report/page.h"
+
+namespace mimicry::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string folder;
+  std::string rows = "rows.csv";
+  std::string out;
+  std::string title;
+  SummaryOptions summary;
+  GalleryOptions gallery;
+};
+
+void make_folder(const fs::path& folder) {
+  std::error_code trouble;
+  fs::create_directories(folder, trouble);
+  if (trouble)
+    throw Error(ErrorKind::io,
+                folder.string() + ": the folder cannot be made: " + trouble.message());
+}
+
+// What `measure` lists beside its rows; none where there is no such file.
+std::vector<RejectedStroke> rejected_beside(const fs::path& rows) {
+  const fs::path path = rows.parent_path() / (rows.stem().string() + ".rejected.csv");
+  if (!fs::exists(path)) return {};
+  const std::string name = path.filename().string();
+  return read_rejected(io::read_csv(files::read_file(path.string()), name), name);
+}
+
+// mimicry-worst-1.png.
+void write_pictures(const Gallery& gallery, const fs::path& folder) {
+  std::map<std::string, int> numbers;
+  for (const GalleryPicture& picture : gallery.pictures) {
+    const std::string kind =
+        file_part(picture.row->method) + "-" + (picture.best ? "best" : "worst") + "-";
+    files::write_file_atomically(
+        (folder / (kind + std::to_string(++numbers[kind]) + ".png")).string(), picture.png);
+  }
+}
+
+void run(Arguments args) {
+  if (page_script().empty())
+    throw Error(ErrorKind::unsupported,
+                "report: this build has no plots; run scripts/setup and build again");
+  const fs::path folder(args.folder);
+  if (!fs::is_directory(folder))
+    throw Error(ErrorKind::io, args.folder +
+                                   ": is no folder; give the one that has the measured "
+                                   "strokes, " +
+                                   args.rows);
+  const fs::path rows_file = folder / args.rows;
+  if (!fs::exists(rows_file))
+    throw Error(ErrorKind::io, args.folder + ": has no " + args.rows +
+                                   "; measure strokes with mimicry measure --out " +
+                                   rows_file.string() + ", or name the file with --rows");
+  const StudyRows rows(io::read_csv(files::read_file(rows_file.string()), args.rows), args.rows);
+  const std::vector<RejectedStroke> rejected = rejected_beside(rows_file);
+  const Summary summary = summarise(rows, args.summary);
+  if (!rows.has(args.gallery.measure))
+    throw Error(ErrorKind::invalid_input,
+                "--gallery-by: " + args.rows + " has no column '" + args.gallery.measure + "'");
+  if (args.gallery.sources.recordings.empty()) args.gallery.sources.recordings = args.folder;
+  const Gallery gallery = make_gallery(rows, summary, args.gallery);
+
+  const fs::path out = args.out.empty() ? folder : fs::path(args.out);
+  const fs::path figures = out / "figures";
+  make_folder(figures);
+  const std::string data = figure_data(summary).dump();
+  files::write_file_atomically((figures / "data.json").string(), data);
+  write_pictures(gallery, figures);
+  if (args.title.empty())
+    args.title = "Study " + fs::absolute(folder).lexically_normal().filename().string();
+  const std::string page = (out / "report.html").string();
+  files::write_file_atomically(page,
+                               write_page(summary, rejected, gallery, args.gallery, data,
+                                          {args.title, args.summary.comparison.bootstrap.level}));
+  std::printf("%s\n", page.c_str());
+  if (gallery.pictures.empty() && !gallery.problems.empty())
+    std::fprintf(stderr,
+                 "mimicry: no pictures of strokes (%s); --recordings, --shapes and --targets say "
+                 "where they are, --gallery 0 leaves them out\n",
+                 gallery.problems.front().c_str());
+  if (draw_figure_files(figures.string()))
+    std::printf("%s: the figures as SVG and PNG\n", figures.string().c_str());
+  else
+    std::fprintf(stderr,
+                 "mimicry: no SVG and PNG files, for want of the program node (18 or newer); the "
+                 "page draws its plots itself and offers them for saving\n");
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int&) {
+  auto* command = app.add_subcommand(
+      "report", std::string("Make a page of tables, plots and pictures of a study's strokes") +
+                    (page_script().empty() ? " (this build is without plots)" : ""));
+  auto args = std::make_shared<Arguments>();
+  command->add_option("folder", args->folder, "With the rows of measure or replay")->required();
+  command->add_option("--rows", args->rows, "The file of rows in it")->capture_default_str();
+  command->add_option("-o,--out", args->out,
+                      "Folder for report.html and figures/ (default: the same)");
+  command->add_option("--title", args->title, "Of the page");
+  command
+      ->add_option("-m,--methods", args->summary.methods,
+                   "Techniques; each is compared with the first (default: all, spraycan first)")
+      ->delimiter(',');
+  command->add_flag("--keep-tutorial", args->summary.keep_tutorial,
+                    "Count the participants' first shape, torus, too");
+  command->add_option("--gallery", args->gallery.count, "Worst and best strokes shown a technique")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  command->add_option("--gallery-by", args->gallery.measure, "The column that says which")
+      ->capture_default_str();
+  command->add_option("--recordings", args->gallery.sources.recordings,
+                      "Folder of the participants' folders or strokes files (default: the same)");
+  command->add_option("--shapes", args->gallery.sources.shapes,
+                      "Folder of the shapes' meshes (default: built-in shapes)");
+  command->add_option("--targets", args->gallery.sources.targets,
+                      "The file of target curves, to show them in the pictures");
+  command
+      ->add_option("--resamples", args->summary.comparison.bootstrap.resamples, "Of the intervals")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", args->summary.comparison.bootstrap.seed, "Of the intervals")
+      ->capture_default_str();
+  command->add_option("--threads", args->gallery.threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,98 @@
+#include "cli/report/figure_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <mimicry/render/palette.h>
+
+#include "cli/comparison_text.h"
+#include "cli/report/paper.h"
+
+namespace mimicry::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Five digits are more than any eye sees, and half of the page.
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.5g", value);
+  return std::strtod(text, nullptr);
+}
+
+Json to_json(const Box& box) {
+  return {{"measure", box.measure},        {"method", box.method},  {"group", box.group},
+          {"strokes", box.strokes},        {"p5", rounded(box.p5)}, {"q1", rounded(box.q1)},
+          {"median", rounded(box.median)}, {"q3", rounded(box.q3)}, {"p95", rounded(box.p95)},
+          {"mean", rounded(box.mean)}};
+}
+
+Json to_json(const ScatterPlot& plot) {
+  Json points = Json::array();
+  for (const ScatterPoint& point : plot.points)
+    points.push_back({{"x", rounded(point.x)},
+                      {"y", rounded(point.y)},
+                      {"task", point.stroke->task},
+                      {"stroke", point.stroke->name()}});
+  Json line;
+  if (plot.line)
+    line = {{"slope", plot.line->slope},
+            {"intercept", plot.line->intercept},
+            {"r", plot.line->correlation}};
+  return {{"measure", plot.measure}, {"points", points}, {"line", line}};
+}
+
+bool positive(const std::vector<Box>& boxes, const std::string& measure) {
+  return std::all_of(boxes.begin(), boxes.end(),
+                     [&](const Box& box) { return box.measure != measure || box.p5 > 0; });
+}
+
+}  // namespace
+
+std::string method_color(const std::string& method) {
+  const render::Color color = render::technique_color(method);
+  char text[8];
+  const auto byte = [](double c) { return static_cast<unsigned>(std::lround(255 * c)) & 255U; };
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
+  return text;
+}
+
+std::string file_part(std::string name) {
+  for (char& c : name)
+    if (!(c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')))
+      c = '_';
+  return name;
+}
+
+std::string scatter_id(const MethodPair& pair) {
+  return file_part("scatter-" + pair.a + "-" + pair.b);
+}
+
+Json figure_data(const Summary& summary) {
+  Json methods = Json::array(), measures = Json::array(), by_task = Json::array(),
+       by_shape = Json::array(), scatter = Json::array(), comparisons = Json::array();
+  for (const std::string& name : summary.methods)
+    methods.push_back({{"name", name}, {"color", method_color(name)}});
+  for (const std::string& measure : summary.measures)
+    measures.push_back(
+        {{"id", measure},
+         {"title", paper_measure(measure)->title},
+         {"positive", positive(summary.by_task, measure) && positive(summary.by_shape, measure)}});
+  for (const Box& box : summary.by_task) by_task.push_back(to_json(box));
+  for (const Box& box : summary.by_shape) by_shape.push_back(to_json(box));
+  for (const MethodPair& pair : summary.pairs) {
+    Json plots = Json::array(), groups = Json::array();
+    for (const ScatterPlot& plot : pair.scatter) plots.push_back(to_json(plot));
+    scatter.push_back({{"id", scatter_id(pair)}, {"a", pair.a}, {"b", pair.b}, {"plots", plots}});
+    for (std::size_t g = 0; g < pair.groups.size(); ++g)
+      groups.push_back(cli::to_json(pair.groups[g], pair.comparisons[g]));
+    comparisons.push_back({{"a", pair.a}, {"b", pair.b}, {"groups", groups}});
+  }
+  return {{"methods", methods},   {"tasks", summary.tasks},    {"shapes", summary.shapes},
+          {"measures", measures}, {"by_task", by_task},        {"by_shape", by_shape},
+          {"scatter", scatter},   {"comparisons", comparisons}};
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,94 @@
+#include "cli/report/figure_files.h"
+
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <mimicry/base/error.h>
+#include <mimicry/render/text.h>
+
+#include "cli/report/base64.h"
+#include "cli/report/bundle.h"
+
+extern char** environ;
+
+namespace mimicry::cli {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, int error) {
+  throw Error(ErrorKind::io, "node: " + what + ": " + std::generic_category().message(error));
+}
+
+// A child that ends early must not end us.
+class IgnoreBrokenPipes {
+ public:
+  IgnoreBrokenPipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+  ~IgnoreBrokenPipes() { std::signal(SIGPIPE, before_); }
+  IgnoreBrokenPipes(const IgnoreBrokenPipes&) = delete;
+  IgnoreBrokenPipes& operator=(const IgnoreBrokenPipes&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// A program reading its script from the returned file; 0 where there is no such program.
+pid_t start_node(const std::string& folder, int& script) {
+  int ends[2];
+  if (::pipe(ends) != 0) fail("cannot be given a script", errno);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addclose(&actions, ends[1]);
+  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  posix_spawn_file_actions_addclose(&actions, ends[0]);
+  std::string name = "node", kind = "--input-type=commonjs", dash = "-", where = folder;
+  char* arguments[] = {name.data(), kind.data(), dash.data(), where.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "node", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[0]);
+  if (error != 0) {
+    ::close(ends[1]);
+    if (error == ENOENT) return 0;
+    fail("cannot be started", error);
+  }
+  script = ends[1];
+  return child;
+}
+
+}  // namespace
+
+bool draw_figure_files(const std::string& folder) {
+  const IgnoreBrokenPipes guard;
+  int script = -1;
+  const pid_t child = start_node(folder, script);
+  if (child == 0) return false;
+  write_all(script, "const mimicryFont = '") && write_all(script, base64(render::font_file())) &&
+      write_all(script, "';\n") && write_all(script, files_script());
+  ::close(script);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) fail("cannot be waited for", errno);
+  // 127: what spawning reports from the child where the program is not there.
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return false;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error(ErrorKind::io,
+                "node: could not draw the figures of " + folder + "; it needs Node 18 or newer");
+  return true;
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,266 @@
+"""Reports as their readers get them: report_test.py PROGRAM REPORT_FOLDER [TEST...]."""
+
+import base64
+import csv
+import html
+import json
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+PROGRAM, SCRIPTS = sys.argv[1:3]
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+SEED = 7
+
+MEASURES = {"D_ep_mm": 2, "D_sym_mm": 0.7, "K_E": 250, "K_g": 220, "F_g": 350, "T_h": 0.8,
+            "R_h": 1.5, "T_c": 1.05, "R_c": 5, "tau_s": 4.5}
+
+
+def run(*args, expect=0, **options):
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=240, **options)
+    assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
+    return done
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def write_rows(path, participants=3, methods=("0", "1"), hostile=""):
+    """Rows as measure writes them: torus and hand, 12 strokes each, one of them noisy."""
+    dice = random.Random(SEED)
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(["method", "shape", "index", "curve", "repeat", "task", *MEASURES, "short",
+                       "noisy", "inverted", "mimicry_violation", "L_X_m", "pieces", "largest_jump",
+                       "share_jumping", "gaps", "participant"])
+        for person in range(participants):
+            for m, method in enumerate(methods):
+                for shape in (0, 4, 5):
+                    for index in range(12):
+                        half = index // 6
+                        curve, repeat = (5 * half, 1) if index % 6 == 5 else (5 * half + index % 6, 0)
+                        scale = 0.7 ** m * dice.lognormvariate(0, 0.3)
+                        values = [repr(v * scale * dice.lognormvariate(0, 0.2))
+                                  for v in MEASURES.values()]
+                        noisy = int(person == 1 and shape == 4 and index == 3 and m == 0)
+                        rows.writerow([method, shape, index, curve, repeat,
+                                       ("tracing", "re-creating")[half], *values, 0, noisy, 0,
+                                       dice.random() / 3, 0.3, 1, dice.lognormvariate(1, 1),
+                                       max(0, dice.gauss(0, 0.01)), 0, f"p{person}{hostile}"])
+
+
+def data_of(page):
+    text = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.S)
+    return json.loads(text.group(1))
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = os.path.join(folder.name, "study")
+        os.mkdir(self.folder)
+        self.rows = os.path.join(self.folder, "rows.csv")
+
+    def report(self, *more, node=False):
+        """Without Node's second unless its files matter."""
+        environment = dict(os.environ) if node else {"PATH": self.folder}
+        done = run("report", self.folder, "--resamples", "500", *more, env=environment)
+        return done, read(os.path.join(self.folder, "report.html"))
+
+    def test_says_what_compare_says(self):
+        write_rows(self.rows)
+        _, page = self.report("--gallery", "0")
+        ours = data_of(page)["comparisons"]
+        self.assertEqual([(c["a"], c["b"]) for c in ours], [("spraycan", "mimicry")])
+        theirs = json.loads(run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500",
+                                "--without", "shape=0", "--json").stdout)["groups"]
+        self.assertEqual([g["group"] for g in ours[0]["groups"]],
+                         ["task tracing", "task re-creating", "all"])
+        by_group = {g["group"]: g for g in theirs}
+        for group in ours[0]["groups"]:
+            self.assertEqual(group, by_group[group["group"]])
+        self.assertEqual((by_group["all"]["pairs"], by_group["all"]["left_out"]), (71, 1))
+        # The table itself, cell by cell, and what the paper has beside it.
+        table = re.search(r'<table class="comparison">.*?</table>', page, re.S).group(0)
+        cells = [[html.unescape(re.sub("<[^>]*>", "", c)) for c in re.findall("<td.*?</td>", line)]
+                 for line in table.splitlines() if line.startswith("<tr><td")]
+        self.assertEqual(len(cells), 30)
+        for line, measure in zip(cells, ours[0]["groups"][0]["measures"]):
+            for at, side in ((1, "a"), (2, "b")):
+                mean, deviation = line[at].split(" ± ")
+                for text, value in ((mean, "mean"), (deviation, "standard_deviation")):
+                    half_a_digit = 0.5 * 10.0 ** -len(text.partition(".")[2])
+                    self.assertLessEqual(abs(float(text) - measure[side][value]),
+                                         1.0001 * half_a_digit)
+            self.assertAlmostEqual(float(line[3].replace("\u2212", "-")), measure["z"], delta=0.0051)
+        self.assertEqual(cells[0][-4:], ["2.31 ± 2.64", "1.13 ± 1.11", "8.36", "<.001"])
+        self.assertEqual(cells[11][-4:], ["0.75 ± 0.65", "1.12 ± 11.51", "0.55", ">.05"])
+        self.assertEqual(cells[21][-1], "")
+        for line in table.splitlines():
+            if line.startswith("<tr><td"):
+                p = re.findall("<td.*?</td>", line)[4]
+                value = html.unescape(re.sub("<[^>]*>", "", p))
+                self.assertEqual("<b>" in p, value.startswith("<") or float(value) < 0.05, line)
+
+    def test_numbers_of_the_plots(self):
+        write_rows(self.rows)
+        _, page = self.report("--gallery", "0")
+        data = data_of(page)
+        self.assertEqual((data["tasks"], data["shapes"]),
+                         (["tracing", "re-creating"], ["hand", "fertility"]))
+        with open(self.rows, encoding="utf-8") as file:
+            rows = [r for r in csv.DictReader(file) if r["shape"] != "0" and r["noisy"] == "0"]
+        for box in data["by_shape"]:
+            shape = {"hand": "4", "fertility": "5"}[box["group"]]
+            method = {"spraycan": "0", "mimicry": "1"}[box["method"]]
+            values = sorted(float(r[box["measure"]]) for r in rows
+                            if (r["shape"], r["method"]) == (shape, method))
+            self.assertEqual(box["strokes"], len(values))
+            n = len(values)
+            middle = (values[(n - 1) // 2] + values[n // 2]) / 2
+            self.assertAlmostEqual(box["median"] / middle, 1, 4)
+            self.assertAlmostEqual(box["mean"] / (sum(values) / n), 1, 4)
+        plot = data["scatter"][0]["plots"][0]
+        self.assertEqual((plot["measure"], len(plot["points"])), ("K_E", 71))
+        # The line goes through the mean of the logarithms.
+        x = sum(math.log10(p["x"]) for p in plot["points"]) / 71
+        y = sum(math.log10(p["y"]) for p in plot["points"]) / 71
+        self.assertAlmostEqual(plot["line"]["intercept"] + plot["line"]["slope"] * x, y, 4)
+
+    def test_files(self):
+        write_rows(self.rows, participants=2)
+        done, page = self.report("--gallery", "0", node=True)
+        names = sorted(os.listdir(os.path.join(self.folder, "figures")))
+        if shutil.which("node") is None:
+            self.assertIn("node", done.stderr)
+            self.skipTest("node is absent")
+        ids = re.findall('data-figure="([a-z-]*)"', page)
+        self.assertEqual(ids, ["scatter-spraycan-mimicry", "boxes", "shapes"])
+        self.assertEqual(names, sorted(["data.json"] + [i + e for i in ids for e in (".svg", ".png")]))
+        for i in ids:
+            path = os.path.join(self.folder, "figures", i)
+            root = xml.etree.ElementTree.parse(path + ".svg").getroot()
+            self.assertTrue(root.tag.endswith("svg"))
+            texts = [t.text for t in root.iter() if t.tag.endswith("}text")]
+            self.assertTrue(any("rad/m" in (t or "") for t in texts), texts)
+            with open(path + ".png", "rb") as file:
+                head = file.read(24)
+            self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(int.from_bytes(head[16:20], "big"),
+                             2 * int(float(root.get("width"))))
+
+    def test_page_without_node(self):
+        write_rows(self.rows, participants=1)
+        done, page = self.report("--gallery", "0")
+        self.assertIn("node", done.stderr)
+        self.assertIn('data-figure="boxes"', page)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "figures")), ["data.json"])
+
+    def test_opens_in_a_browser(self):
+        if CHROMIUM is None or not os.path.isdir(os.path.join(SCRIPTS, "node_modules")):
+            self.skipTest("chromium or the npm packages of report/ are absent")
+        # Names that would leave their place in the page.
+        write_rows(self.rows, hostile="</script><b>\"&'", methods=("spraycan", "a-technique", "z"))
+        with open(os.path.join(self.folder, "rows.rejected.csv"), "w", encoding="utf-8") as file:
+            file.write("participant,method,shape,index,reason\np9,0,4,3,<i>face 9</i>\n")
+        _, page = self.report("--gallery", "0", "--title", "<Study>")
+        self.assertNotRegex(page, r'(src|href)="(?!#|data:)')
+        done = subprocess.run(["node", os.path.join(SCRIPTS, "test", "open_page.mjs"), CHROMIUM,
+                               os.path.join(self.folder, "report.html")],
+                              capture_output=True, text=True, timeout=200, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        seen = json.loads(done.stdout)
+        self.assertEqual((seen["drawn"], seen["errors"]), ("yes", []))
+        self.assertEqual([u for u in seen["requests"] if not u.startswith("file:")], [])
+        self.assertEqual(len(seen["requests"]), 1, seen["requests"])
+        self.assertEqual(len(seen["plots"]), 4)
+        for plot in seen["plots"]:
+            self.assertGreater(plot["marks"], 20, plot)
+        self.assertLessEqual(seen["overflow"], 0)
+        self.assertTrue(seen["saved"].endswith(".svg"))
+        self.assertIn("&lt;i&gt;face 9", page)
+
+    def test_what_is_left_out(self):
+        write_rows(self.rows)
+        _, page = self.report("--gallery", "0")
+        table = re.search('<table id="rejected">.*?</table>', page, re.S).group(0)
+        self.assertEqual(table.count("<tr><td"), 1)
+        self.assertRegex(table, "p1</td>.*spraycan.*hand.*noisy")
+        self.assertIn("The tutorial's 72 strokes are left out", page)
+        _, page = self.report("--gallery", "0", "--keep-tutorial")
+        self.assertEqual(data_of(page)["shapes"], ["torus", "hand", "fertility"])
+
+    def test_one_technique(self):
+        write_rows(self.rows, methods=("1",))
+        _, page = self.report("--gallery", "0")
+        self.assertIn("nothing to compare", page)
+        self.assertEqual(data_of(page)["scatter"], [])
+
+    def test_pictures_of_strokes(self):
+        run("simulate", "shape:cube", "-o", os.path.join(self.folder, "strokes.json"))
+        strokes = json.loads(read(os.path.join(self.folder, "strokes.json")))["strokes"]
+        with open(self.rows, "w", encoding="utf-8") as file:
+            print("participant,stroke,method,shape,index,K_E,D_ep_mm", file=file)
+            for i, stroke in enumerate(strokes):
+                for m, method in enumerate(("spraycan", "anchored-closest")):
+                    print("strokes.json", stroke["id"], method, "cube", i, 100, 5 + i - m, sep=",",
+                          file=file)
+            print("strokes.json,none,spraycan,cube,3,1,99", file=file)
+        _, page = self.report("--gallery", "1")
+        self.assertRegex(page, "spraycan, strokes.json, none, cube: .* has only 3 strokes")
+        images = [base64.b64decode(i) for i in re.findall('src="data:image/png;base64,([^"]*)"', page)]
+        captions = re.findall("<figcaption>.*?</figcaption>", page)
+        self.assertEqual([re.sub("<[^>]*>", "", c) for c in captions],
+                         [f"Dep {5 + i - m}.00 mm: strokes.json, {strokes[i]['id']}, cube"
+                          for m, i in ((0, 0), (1, 2), (1, 0))])
+        names = ["spraycan-best-1", "anchored-closest-worst-1", "anchored-closest-best-1"]
+        for image, name in zip(images, names):
+            self.assertEqual(image[:8], b"\x89PNG\r\n\x1a\n")
+            with open(os.path.join(self.folder, "figures", name + ".png"), "rb") as file:
+                self.assertEqual(file.read(), image)
+        self.assertEqual(len(set(images)), 3)
+
+    def test_no_recordings(self):
+        write_rows(self.rows, participants=1)
+        done, page = self.report("--gallery", "1")
+        self.assertIn("--recordings", done.stderr)
+        self.assertIn("4 strokes without a picture", page)
+
+    def test_errors(self):
+        def fails(expect, *words, folder=self.folder, more=()):
+            text = run("report", folder, *more, expect=expect).stderr
+            for word in words:
+                self.assertIn(word, text)
+
+        fails(4, "no-such", "is no folder", folder=os.path.join(self.folder, "no-such"))
+        fails(4, "has no rows.csv", "mimicry measure")
+        for text, words in (("a,b\n1,2\n", "no column 'method'"),
+                            ("method,K_E\n", "no rows"),
+                            ("method,x\n0,1\n", "none of the paper's measures"),
+                            ("method,K_E,participant,shape,task\n0,1,p,0,tracing\n", "--keep-tutorial"),
+                            ("method,K_E\n0,1,2\n", "line 2")):
+            with open(self.rows, "w", encoding="utf-8") as file:
+                file.write(text)
+            fails(3, "rows.csv", words)
+        self.assertEqual(os.listdir(self.folder), ["rows.csv"])
+        write_rows(self.rows, participants=1)
+        fails(3, "'snap'", "spraycan, mimicry", more=("-m", "spraycan,snap"))
+        fails(3, "no column 'nope'", more=("--gallery-by", "nope"))
+
+
+if __name__ == "__main__":
+    if "without plots" in subprocess.run([PROGRAM, "report", "--help"], capture_output=True, text=True,
+                                         check=False).stdout:
+        print("skipped: the program was built without plots (scripts/setup, then build again)")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
