@@ -45,6 +45,12 @@ struct Arguments {
   bool json = false;
 };
 
+struct StrokeCounts {
+  std::string stroke;
+  std::size_t points;
+  session::AnswerCounts answers;
+};
+
 // What the table says of one technique, over all strokes.
 struct Row {
   const TechniqueInfo* technique = nullptr;
@@ -55,6 +61,17 @@ struct Row {
   double distance_sum_m = 0.0;  // to the intended curves
   std::size_t distances = 0;    // strokes that have one
   double seconds = 0.0;
+  std::vector<StrokeCounts> strokes = {};
+
+  // Plain closest points in place of smooth ones.
+  std::size_t fallbacks() const {
+    Index sum = 0;
+    for (const StrokeCounts& s : strokes)
+      for (const auto answer : {technique::Answer::outside_shell,
+                                technique::Answer::no_phong_solution, technique::Answer::replaced})
+        sum += s.answers[answer];
+    return static_cast<std::size_t>(sum);
+  }
 };
 
 std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
@@ -158,6 +175,7 @@ io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
   row.frames += stroke.frames.size();
   row.points += curve.points.size();
   row.missed += static_cast<std::size_t>(session.counts()[session::FrameStatus::missed]);
+  row.strokes.push_back({stroke.id, curve.points.size(), session.answers()});
   row.length_m += stroke.model_to_world.scale * curve::length(curve);
   if (stroke.intended && !stroke.intended->points.empty() && !curve.points.empty()) {
     row.distance_sum_m += study::mean_corresponding_distance(
@@ -199,11 +217,12 @@ void print_rows(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     cells.push_back(
         {std::string(row.technique->name), std::to_string(row.points), std::to_string(row.missed),
+         row.technique->needs_bake ? std::to_string(row.fallbacks()) : "-",
          fixed(100.0 * row.length_m, 1),
          row.distances > 0 ? fixed(1e3 * row.distance_sum_m / double(row.distances), 1) : "-",
          row.frames > 0 ? fixed(1e6 * row.seconds / double(row.frames), 2) : "-"});
-  print_table({"technique", "points", "missed", "length cm", "off the intended curve mm",
-               "microseconds a frame"},
+  print_table({"technique", "points", "missed", "not smooth", "length cm",
+               "off the intended curve mm", "microseconds a frame"},
               cells);
 }
 
@@ -221,6 +240,15 @@ void print_json(const std::vector<Row>& rows, const std::vector<std::string>& fi
     entry["seconds_per_frame"] = row.frames > 0
                                      ? nlohmann::ordered_json(row.seconds / double(row.frames))
                                      : nlohmann::ordered_json();
+    for (const StrokeCounts& s : row.strokes) {
+      nlohmann::ordered_json answers = nlohmann::ordered_json::object();
+      for (std::size_t a = 0; a < technique::kAnswerCount; ++a)
+        if (s.answers.by_answer[a] > 0)
+          answers[std::string(technique::answer_name(static_cast<technique::Answer>(a)))] =
+              s.answers.by_answer[a];
+      entry["strokes"].push_back(
+          {{"stroke", s.stroke}, {"points", s.points}, {"answers", answers}});
+    }
     list.push_back(entry);
   }
   std::printf("%s\n",

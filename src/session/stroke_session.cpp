@@ -22,6 +22,7 @@ void StrokeSession::begin(const Similarity& model_to_world) {
   model_to_world_ = model_to_world;
   canvas_.metres_per_unit = model_to_world.scale;
   counts_ = {};
+  answers_ = {};
   frame_ = 0;
   last_time_s_ = -kInfinity;
   drawing_ = true;
@@ -44,6 +45,7 @@ FrameStatus StrokeSession::judge(const stroke::Frame& frame) {
   const stroke::Frame model = stroke::to_model(frame, model_to_world_);
   const technique::Step step = technique_->step(canvas_, memory_, model, options_.technique);
   memory_ = step.memory;
+  ++answers_[step.answer];
   if (step.answer == technique::Answer::miss) {
     if (options_.misses == MissPolicy::split) builder_.break_here();
     return FrameStatus::missed;

@@ -91,6 +91,13 @@ constexpr std::array<TechniqueInfo, 13> kTechniques = {{
 
 }  // namespace
 
+std::string_view answer_name(Answer answer) {
+  constexpr std::array<std::string_view, kAnswerCount> kNames = {
+      "miss",    "ray",           "closest",           "smooth",
+      "section", "outside-shell", "no-phong-solution", "replaced"};
+  return kNames[static_cast<std::size_t>(answer)];
+}
+
 std::span<const TechniqueInfo> techniques() {
   return kTechniques;
 }

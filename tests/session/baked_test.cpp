@@ -48,6 +48,23 @@ TEST(BakedSession, ReplaysBitForBitAndAllocatesNothing) {
   });
 }
 
+TEST(BakedSession, CountsHowEachPointWasFound) {
+  const test::BakedTarget baked(make_sphere(8));
+  StrokeSession session(baked.canvas(), technique::find_technique("snap-smooth"));
+  session.begin({});
+  double time_s = 0.0;
+  for (const double height : {1.05, 1.02, 3.0, 1.04, 4.0}) {
+    stroke::Frame frame;
+    frame.time_s = time_s += 0.01;
+    frame.controller.position = Vec3(0.1, 0.2, 1.0).normalized() * height;
+    session.add(frame);
+  }
+  EXPECT_EQ(session.answers()[technique::Answer::smooth], 3);
+  EXPECT_EQ(session.answers()[technique::Answer::outside_shell], 2);
+  session.begin({});
+  EXPECT_EQ(session.answers()[technique::Answer::smooth], 0);
+}
+
 TEST(BakedSession, UnitsAndOriginOfTheModelDoNotMatter) {
   const TriangleMesh mesh = make_sphere(6);
   const stroke::Stroke stroke = test::waving_stroke(100);

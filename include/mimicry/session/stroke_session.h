@@ -40,6 +40,13 @@ struct FrameCounts {
   Index operator[](FrameStatus s) const { return by_status[static_cast<std::size_t>(s)]; }
 };
 
+/// How a stroke's points were found; misses are counted too.
+struct AnswerCounts {
+  std::array<Index, technique::kAnswerCount> by_answer{};
+  Index& operator[](technique::Answer a) { return by_answer[static_cast<std::size_t>(a)]; }
+  Index operator[](technique::Answer a) const { return by_answer[static_cast<std::size_t>(a)]; }
+};
+
 /// Draws strokes on one target with one technique, frame by frame. The curve is in model space; a
 /// point once inked never changes. Same frames, same bits. Refers to the canvas, which must outlive
 /// it. Not thread-safe; sessions on the same target are independent of each other.
@@ -59,6 +66,7 @@ class StrokeSession {
 
   const curve::ProjectedCurve& curve() const { return builder_.curve(); }
   const FrameCounts& counts() const { return counts_; }
+  const AnswerCounts& answers() const { return answers_; }
   const technique::TechniqueInfo& technique() const { return *technique_; }
 
  private:
@@ -71,6 +79,7 @@ class StrokeSession {
   technique::Memory memory_;
   Similarity model_to_world_;
   FrameCounts counts_;
+  AnswerCounts answers_;
   Index frame_ = 0;
   double last_time_s_ = -kInfinity;
   Vec3 last_pen_ = Vec3::Zero();  // world, of the last inked frame

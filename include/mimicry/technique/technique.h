@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -31,6 +32,10 @@ enum class Answer : std::uint8_t {
   no_phong_solution,
   replaced,
 };
+
+inline constexpr std::size_t kAnswerCount = 8;
+/// One or two words, joined by "-": "smooth", "no-phong-solution".
+std::string_view answer_name(Answer answer);
 
 /// What is carried from frame to frame, in model space. The anchor is the last frame that had a
 /// point. A stroke starts with Memory{}. Plain data: copying it is all there is to undo a frame.
