@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   add_keypoints(app, status);
   add_measure(app, status);
   add_targets(app, status);
+  add_serve(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {

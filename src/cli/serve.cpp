@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <qrcodegen/qrcodegen.hpp>
+#include <unistd.h>
+
+#include <mimicry/serve/server.h>
+
+#include "cli/commands.h"
+
+namespace mimicry::cli {
+namespace {
+
+// In the source tree, and of an installed program beside its folder.
+std::string studio_folder() {
+  std::error_code trouble;
+  const auto program = std::filesystem::canonical("/proc/self/exe", trouble);
+  const auto installed = program.parent_path().parent_path() / "share" / "mimicry" / "studio";
+  return std::filesystem::is_directory(installed, trouble) ? installed.string() : MIMICRY_STUDIO;
+}
+
+std::string data_folder() {
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data)
+    return std::string(data) + "/mimicry";
+  const char* home = std::getenv("HOME");
+  return std::string(home && *home ? home : "/tmp") + "/.local/share/mimicry";
+}
+
+// Two rows of modules in a line, black on white whatever the terminal's colours.
+void print_qr(const std::string& text) {
+  const auto code = qrcodegen::QrCode::encodeText(text.c_str(), qrcodegen::QrCode::Ecc::MEDIUM);
+  constexpr int kQuiet = 2;
+  const int end = code.getSize() + kQuiet;
+  for (int y = -kQuiet; y < end; y += 2) {
+    std::string line = "  \033[30;107m";
+    for (int x = -kQuiet; x < end; ++x) {
+      const bool upper = code.getModule(x, y), lower = code.getModule(x, y + 1);
+      line += upper ? (lower ? "█" : "▀") : (lower ? "▄" : " ");
+    }
+    std::printf("%s\033[0m\n", line.c_str());
+  }
+}
+
+void print_addresses(const serve::Server& server, const serve::ServeOptions& options) {
+  const auto& addresses = server.addresses();
+  std::printf("The studio is at %s\n", addresses.front().c_str());
+  if (options.lan && addresses.size() < 2)
+    std::printf("This machine is in no network: a headset cannot reach it.\n");
+  for (std::size_t i = 1; i < addresses.size(); ++i)
+    std::printf("  and for a headset at %s\n", addresses[i].c_str());
+  if (options.lan && addresses.size() > 1) {
+    if (options.certificate.empty())
+      std::printf("The certificate is this machine's own: tell the browser once to go on.\n");
+    if (isatty(STDOUT_FILENO)) print_qr(addresses[1]);
+  }
+  std::printf("Ctrl-C stops it.\n");
+  std::fflush(stdout);
+}
+
+void run(const serve::ServeOptions& options) {
+  // Threads inherit the mask: the signals come to the one that waits for them.
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  serve::Server server(options);
+  std::thread waiting([&] {
+    int signal = 0;
+    sigwait(&signals, &signal);
+    server.stop();
+  });
+  print_addresses(server, options);
+  try {
+    server.run();
+  } catch (...) {
+    pthread_kill(waiting.native_handle(), SIGTERM);
+    waiting.join();
+    throw;
+  }
+  waiting.join();
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, int&) {
+  auto* command = app.add_subcommand("serve", "Serve the studio to a browser or a headset");
+  auto options = std::make_shared<serve::ServeOptions>();
+  options->studio = studio_folder();
+  options->data_folder = data_folder();
+  options->threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command->add_option("--port", options->port, "0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_flag("--lan", options->lan,
+                    "Let other devices in the network in, over HTTPS as headsets want it");
+  command->add_option("--cert", options->certificate,
+                      "PEM file with certificate and key, for HTTPS; --lan makes one of its own");
+  command->add_option("--studio", options->studio, "Folder of the built page")
+      ->capture_default_str();
+  command->add_option("--data", options->data_folder, "Folder for bakes and the certificate")
+      ->capture_default_str();
+  auto megabytes = std::make_shared<double>(256.0);
+  command->add_option("--largest-upload-mb", *megabytes, "Models beyond it are not baked")
+      ->check(number_between(0.001, 65536))
+      ->capture_default_str();
+  command->add_option("--longest-bake-s", options->longest_bake_s, "Then it is given up")
+      ->check(number_between(0.001, 1e6))
+      ->capture_default_str();
+  command->callback([options, megabytes] {
+    options->largest_upload = static_cast<std::size_t>(*megabytes * (1 << 20));
+    run(*options);
+  });
+}
+
+}  // namespace mimicry::cli
