@@ -28,4 +28,11 @@ void add_keypoints(CLI::App& app, int& status);
 void add_measure(CLI::App& app, int& status);
 void add_project(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
+void add_report(CLI::App& app, int& status);
 void add_serve(CLI::App& app, int& status);
+void add_shapes(CLI::App& app, int& status);
+void add_simulate(CLI::App& app, int& status);
+void add_targets(CLI::App& app, int& status);
+void add_techniques(CLI::App& app, int& status);
+
+}  // namespace mimicry::cli
