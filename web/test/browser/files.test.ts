@@ -96,8 +96,10 @@ describe('models', () => {
   });
 
   it('reading can be cancelled', async () => {
-    const obj = torusObj(160);
-    await Promise.all([choose({ name: 'slow.obj', bytes: obj }), page.getByRole('button', { name: 'Cancel' }).click()]);
+    await page.evaluate((text) => {
+      window.studio.openFiles([new File([text], 'slow.obj')]);
+      document.querySelector<HTMLButtonElement>('.work button')!.click();
+    }, torusObj(60));
     await expect.poll(() => messages(page)).toEqual([]);
     expect(await modelName()).toBe('hand');
   });
@@ -212,8 +214,10 @@ describe('preparing', () => {
       expect(await mimicry.isDisabled()).toBe(true);
       await page.getByRole('button', { name: 'Prepare this model' }).click();
     };
-    await start();
-    await page.getByRole('button', { name: 'Cancel' }).click();
+    await page.evaluate(() => {
+      window.studio.bake();
+      document.querySelector<HTMLButtonElement>('.work button')!.click();
+    });
     await expect.poll(() => messages(page)).toEqual([]);
     await start();
     await stroke(page, kRing);

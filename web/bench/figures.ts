@@ -1,0 +1,101 @@
+import { gzipSync } from 'node:zlib';
+import { afterAll, beforeAll, it } from 'vitest';
+import { torusObj } from '../test/browser/meshes';
+import { Lab } from '../test/browser/studio_page';
+
+/** The studio's figures in docs/performance.md: npm run figures, on an idle machine. */
+let lab: Lab;
+beforeAll(async () => { lab = await Lab.start(); });
+afterAll(() => lab.stop());
+
+const middle = (list: number[], part = 0.5): number => [...list].sort((a, b) => a - b)[Math.floor(part * (list.length - 1))]!;
+const say = (what: string, value: string): void => console.log(`${what.padEnd(60)} ${value}`);
+
+it('opening', async () => {
+  const times: number[] = [];
+  let sent = 0;
+  for (let i = 0; i < 5; i += 1) {
+    const context = await lab.browser.newContext({ viewport: { width: 1280, height: 800 } });
+    const page = await context.newPage();
+    const before = lab.served.sent();
+    const start = performance.now();
+    await page.goto(lab.served.url);
+    await page.waitForSelector('html[data-ready]');
+    times.push(performance.now() - start);
+    sent = lab.served.sent() - before;
+    await context.close();
+  }
+  say('page transfer until a stroke is possible, gzip', `${(sent / 1000).toFixed(0)} kB`);
+  say('from opening to first stroke possible, median of 5', `${middle(times).toFixed(0)} ms`);
+});
+
+it('dropping 86,400 faces', async () => {
+  const { page, context } = await lab.open({ viewport: { width: 1280, height: 800 } });
+  const obj = torusObj(120);
+  say('OBJ with 86,400 faces', `${(obj.length / 1e6).toFixed(1)} MB`);
+  const times: number[] = [];
+  for (let i = 0; i < 5; i += 1) {
+    times.push(await page.evaluate(async ([text, name]) => {
+      const file = new File([text!], name!);
+      const start = performance.now();
+      window.studio.openFiles([file]);
+      while (window.studio.studio.state.now.model?.name !== name) await new Promise((done) => setTimeout(done, 1));
+      return performance.now() - start;
+    }, [obj, `large-${i}.obj`]));
+  }
+  say('from drop to first stroke possible, median of 5 (largest)', `${middle(times).toFixed(0)} (${Math.max(...times).toFixed(0)}) ms`);
+  await context.close();
+});
+
+it('a hundred curves', async () => {
+  const { page, context } = await lab.open({ viewport: { width: 1280, height: 800 } });
+  const { frames, pictures, points, triangles } = await page.evaluate(async () => {
+    const app = window.studio, { studio, stage } = app;
+    const frame = new Float64Array(17);
+    frame.set([0, 1.15, 0.3, 0, 0, 0, 1], 1);
+    frame.set([0, 0, 0, 1], 11);
+    frame[15] = 1;
+    frame[16] = -1;
+    const frames: number[] = [], pictures: number[][] = [];
+    const gl = stage.renderer.getContext(), pixel = new Uint8Array(4);
+    for (let curve = 0; curve < 100; curve += 1) {
+      studio.beginStroke();
+      const start = performance.now();
+      for (let i = 0; i < 500; i += 1) {
+        frame[0] = curve * 10 + i / 90;
+        const t = i / 500, a = 0.3 * curve;
+        frame[8] = 0.03 + 0.05 * Math.sin(6 * t + a);
+        frame[9] = 1.08 + 0.06 * Math.cos(4 * t + 1.7 * a);
+        frame[10] = -0.42;
+        studio.addFrame(frame);
+      }
+      frames.push((performance.now() - start) / 500); // the clock is too coarse for one
+      studio.endStroke();
+      if (curve % 25 === 24 || curve === 0) {
+        const times: number[] = [], drawn: number[] = [];
+        for (let i = 0; i < 12; i += 1) {
+          const start = performance.now();
+          stage.renderer.render(stage.scene, stage.camera);
+          times.push(performance.now() - start); // the page's part: the commands
+          gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+          drawn.push(performance.now() - start); // and the drawing, by the processor here
+          await new Promise(requestAnimationFrame);
+        }
+        const middle = (list: number[]): number => list.sort((a, b) => a - b)[6]!;
+        pictures.push([curve + 1, middle(times), middle(drawn)]);
+      }
+    }
+    return { frames, pictures, points: studio.state.now.history.drawing.map((drawn) => drawn.curve.pointCount), triangles: app.view.ink.triangles };
+  });
+  say('a frame in the page (session, curve, tube), mean, curves 1-10', `${(1000 * middle(frames.slice(0, 10))).toFixed(0)} µs`);
+  say('the same, curves 91-100', `${(1000 * middle(frames.slice(90))).toFixed(0)} µs`);
+  for (const [count, ms, drawn] of pictures) say(`picture with ${count} curves: page; with software drawing`, `${ms!.toFixed(1)}; ${drawn!.toFixed(0)} ms`);
+  say('curves; points of the smallest, the middle one', `${points.length}; ${Math.min(...points)}, ${middle(points)}`);
+  say('triangles of ink', String(triangles));
+  await context.close();
+});
+
+it('size of what is fetched later', async () => {
+  const { readFileSync, readdirSync } = await import('node:fs');
+  for (const name of readdirSync('dist/assets')) say(name, `${(gzipSync(readFileSync(`dist/assets/${name}`)).length / 1000).toFixed(0)} kB gzip`);
+});
