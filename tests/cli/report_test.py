@@ -132,6 +132,14 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(box["mean"] / (sum(values) / n), 1, 4)
         plot = data["scatter"][0]["plots"][0]
         self.assertEqual((plot["measure"], len(plot["points"])), ("K_E", 71))
+        # Changes of repeats: none of these is five deviations off.
+        mine = [r for r in rows if r["method"] == "1"]
+        key = lambda r: (r["participant"], r["shape"], r["task"], r["curve"])
+        first = {key(r): float(r["F_g"]) for r in mine if r["repeat"] == "0"}
+        changes = [abs(first[key(r)] - float(r["F_g"])) / first[key(r)]
+                   for r in mine if r["repeat"] == "1"]
+        self.assertRegex(page, r"</span>mimicry</td>.*<td>12</td><td>[\d.]+ %%</td><td>%.1f %%</td>"
+                         % (100 * sum(changes) / len(changes)))
         # The line goes through the mean of the logarithms.
         x = sum(math.log10(p["x"]) for p in plot["points"]) / 71
         y = sum(math.log10(p["y"]) for p in plot["points"]) / 71

@@ -239,27 +239,30 @@ std::string filters(const Summary& summary) {
   std::string html =
       "<p>The paper's filters: shorter than half of the target curve; a step of the hand above "
       "5 cm; drawn the other way round. Violation: how far the stroke is from a copy of the target "
-      "curve, (largest − smallest distance) / length; parts of the strokes that pass.</p>\n"
+      "curve, (largest − smallest distance) / length; parts of the strokes that pass. Change on "
+      "repeating: mean |f − f′| / f over a stroke and its repeat, changes beyond five standard "
+      "deviations dropped.</p>\n"
       "<div class=\"wide\"><table><thead><tr><th></th><th>strokes</th><th>too short</th>"
       "<th>noisy</th><th>inverted</th><th>rejected</th><th>pass</th><th>violation &lt; 25 %</th>"
-      "<th>&lt; 20 %</th></tr></thead><tbody>\n";
+      "<th>&lt; 20 %</th><th>repeats</th><th>change of D<sub>ep</sub></th><th>of F<sub>g</sub></th>"
+      "</tr></thead><tbody>\n";
   bool paper = false;
   for (const FilterRate& rate : summary.filters) {
     const auto n = [](std::size_t number) { return std::to_string(number); };
     html += row({method_label(rate.method), n(rate.strokes), n(rate.too_short), n(rate.noisy),
                  n(rate.inverted), n(rate.rejected),
                  percent(static_cast<double>(rate.passed) / static_cast<double>(rate.strokes)),
-                 percent(rate.violation_below_25), percent(rate.violation_below_20)});
+                 percent(rate.violation_below_25), percent(rate.violation_below_20),
+                 n(rate.d_ep.used), percent(rate.d_ep.mean_change), percent(rate.f_g.mean_change)});
     paper = paper || rate.method == "spraycan" || rate.method == "mimicry";
   }
   if (paper)
-    html +=
-        "<tr class=\"paper\"><td>paper, spraycan</td><td>1200</td><td></td><td></td><td></td>"
-        "<td></td><td></td><td>80 %</td><td>66 %</td></tr>\n"
-        "<tr class=\"paper\"><td>paper, mimicry</td><td>1200</td><td></td><td></td><td></td>"
-        "<td></td><td></td><td>86 %</td><td>71 %</td></tr>\n"
-        "<tr class=\"paper\"><td>paper, both</td><td>2400</td><td>17</td><td>38</td><td>66</td>"
-        "<td></td><td>95.8 %</td><td></td><td></td></tr>\n";
+    for (const auto& cells :
+         {std::vector<std::string>{"paper, spraycan", "1200", "", "", "", "", "", "80 %", "66 %",
+                                   "", "36.8 %", "34.1 %"},
+          {"paper, mimicry", "1200", "", "", "", "", "", "86 %", "71 %", "", "35.4 %", "36.5 %"},
+          {"paper, both", "2400", "17", "38", "66", "", "95.8 %", "", "", "", "", ""}})
+      html += "<tr class=\"paper\">" + row(cells).substr(4);
   return html + "</tbody></table></div>\n";
 }
 
@@ -353,7 +356,7 @@ std::string write_page(const Summary& summary, const std::vector<RejectedStroke>
   if (!summary.jumps.empty()) add("jumps", "Jumps", jumps(summary));
   if (!gallery.pictures.empty() || !gallery.problems.empty())
     add("gallery", "Worst and best strokes", pictures(summary, gallery, gallery_options));
-  add("filters", "Filters", filters(summary));
+  add("filters", "Filters and repeats", filters(summary));
   add("left-out", "What is left out", rejected_list(summary, rejected));
 
   std::string page =

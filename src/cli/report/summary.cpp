@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <mimicry/base/error.h>
@@ -176,8 +177,25 @@ JumpRate jump_rate(const StudyRows& rows, const Summary& summary, const std::str
   return rate;
 }
 
-FilterRate filter_rate(const StudyRows& rows, const std::vector<const StudyRow*>& all,
-                       const std::string& method) {
+study::Consistency consistency_of(const StudyRows& rows, const Summary& summary,
+                                  const std::string& method, const char* measure) {
+  std::map<std::vector<std::string>, std::pair<const StudyRow*, const StudyRow*>> tasks;
+  for (const StudyRow* row : summary.counted) {
+    if (row->method != method || row->repeat.empty()) continue;
+    auto& [first, again] = tasks[{row->participant, row->shape, row->task, row->curve}];
+    (row->repeat == "0" ? first : again) = row;
+  }
+  std::vector<double> first, again;
+  for (const auto& [task, pair] : tasks) {
+    if (pair.first == nullptr || pair.second == nullptr) continue;
+    first.push_back(rows.number(*pair.first, measure));
+    again.push_back(rows.number(*pair.second, measure));
+  }
+  return study::consistency(first, again);
+}
+
+FilterRate filter_rate(const StudyRows& rows, const Summary& summary,
+                       const std::vector<const StudyRow*>& all, const std::string& method) {
   FilterRate rate;
   rate.method = method;
   std::size_t below_25 = 0, below_20 = 0;
@@ -201,6 +219,8 @@ FilterRate filter_rate(const StudyRows& rows, const std::vector<const StudyRow*>
   const bool known = rows.has("mimicry_violation") && rate.passed > 0;
   rate.violation_below_25 = known ? static_cast<double>(below_25) / passed : kUndefined;
   rate.violation_below_20 = known ? static_cast<double>(below_20) / passed : kUndefined;
+  rate.d_ep = consistency_of(rows, summary, method, "D_ep_mm");
+  rate.f_g = consistency_of(rows, summary, method, "F_g");
   return rate;
 }
 
@@ -258,7 +278,7 @@ Summary summarise(const StudyRows& rows, const SummaryOptions& options) {
   summary.by_shape = boxes(rows, summary, summary.shapes, &StudyRow::shape);
   for (const std::string& method : summary.methods) {
     if (rows.has("largest_jump")) summary.jumps.push_back(jump_rate(rows, summary, method));
-    summary.filters.push_back(filter_rate(rows, all, method));
+    summary.filters.push_back(filter_rate(rows, summary, all, method));
   }
   return summary;
 }

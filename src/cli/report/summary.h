@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <mimicry/study/comparison.h>
+#include <mimicry/study/consistency.h>
 
 #include "cli/paired_rows.h"
 #include "cli/report/study_rows.h"
@@ -66,6 +67,8 @@ struct FilterRate {
   std::size_t strokes = 0;
   std::size_t too_short = 0, noisy = 0, inverted = 0, rejected = 0, passed = 0;
   double violation_below_25 = 0, violation_below_20 = 0;  ///< part of those that passed
+  /// Change of D_ep and F_g from a stroke to its repeat, where both passed.
+  study::Consistency d_ep, f_g;
 };
 
 /// All numbers of a report. Refers to the rows.
