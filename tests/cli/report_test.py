@@ -15,6 +15,8 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
+import study_cli_test as recordings
+
 PROGRAM, SCRIPTS = sys.argv[1:3]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 SEED = 7
@@ -237,6 +239,41 @@ class Report(unittest.TestCase):
             with open(os.path.join(self.folder, "figures", name + ".png"), "rb") as file:
                 self.assertEqual(file.read(), image)
         self.assertEqual(len(set(images)), 3)
+
+    def test_measured_study(self):
+        """From recordings to the page; one stroke cannot be read."""
+        def write(name, content):
+            os.makedirs(os.path.dirname(os.path.join(self.folder, name)), exist_ok=True)
+            with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                file.write(content if isinstance(content, str) else json.dumps(content))
+
+        write("shapes/torus.obj", recordings.plate_obj())
+        located = [[recordings.locate(x, y) for x, y in recordings.target_points(c)]
+                   for c in range(10)]
+        write("targets.json", {"shapes": [{"name": "torus", "scale": recordings.SCALE, "curves": [
+            {"face": [f for f, _ in points], "bary": [b for _, b in points],
+             "keypoints": [0, 30, 60, 100]} for points in located]}]})
+        dice = random.Random(SEED)
+        for person in ("p1", "p2"):
+            write(f"{person}/study_sequence.json", {"MethodSequence": [0, 1], "ShapeSequence": [0],
+                                                    "StrokeSequence": recordings.ORDER})
+            for method, word in enumerate(("Spray", "AnchorPhong")):
+                strokes = [recordings.drawn_stroke(dice, c, word) for c in recordings.ORDER]
+                if (person, method) == ("p2", 1):
+                    strokes[4] = []
+                write(f"{person}/{method}_0.json", strokes)
+        where = ("--shapes", os.path.join(self.folder, "shapes"), "--targets",
+                 os.path.join(self.folder, "targets.json"))
+        run("measure", os.path.join(self.folder, "p1"), os.path.join(self.folder, "p2"), *where,
+            "--all", "--out", self.rows, expect=5)
+        done, page = self.report("--keep-tutorial", "--gallery", "2", *where)
+        self.assertEqual(page.count('src="data:image/png;base64,'), 8)
+        self.assertNotIn("without a picture", page)
+        self.assertNotIn("no pictures", done.stderr)
+        self.assertIn("47 measured strokes of 2 participants", page)
+        table = re.search('<table id="rejected">.*?</table>', page, re.S).group(0)
+        self.assertRegex(table, "p2</td>.*mimicry.*torus.*<td>4</td>")
+        self.assertIn('id="jumps"', page)
 
     def test_no_recordings(self):
         write_rows(self.rows, participants=1)
