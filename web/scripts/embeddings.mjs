@@ -1,18 +1,16 @@
 // Bakes built-in models into public/embeddings, with the shapes that the page itself makes: an
-// embedding belongs to its mesh to the last bit. Those that are there already stay.
-// usage: node scripts/embeddings.mjs [SHAPE...]
-import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+// embedding belongs to its mesh to the last bit.
+// usage: node scripts/embeddings.mjs SHAPE...
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { Mimicry } from 'mimicry';
 import { bakeHere } from 'mimicry/bake';
 
 const folder = new URL('../public/embeddings/', import.meta.url);
-const shapes = process.argv.length > 2 ? process.argv.slice(2) : ['hand'];
 
 mkdirSync(folder, { recursive: true });
 const core = await new Mimicry().ready;
-for (const shape of shapes) {
+for (const shape of process.argv.slice(2)) {
   const file = new URL(`${shape}.mimicry`, folder);
-  if (existsSync(file)) continue;
   const start = performance.now();
   const bytes = await bakeHere(core.shape(shape));
   writeFileSync(file, bytes);

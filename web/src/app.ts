@@ -1,9 +1,9 @@
-import { bake } from 'mimicry/bake';
 import { Autosave, indexedDbShelf } from './drawing/autosave';
 import { colorBytes, isDrawing, kDrawingEnding, keptCurves, readDrawing, readDrawingModel, writeDrawing } from './drawing/drawing_file';
 import type { Core, CurveFormat } from './engine/core';
 import { loadModel, warmLoader } from './engine/loader';
 import { shapeModel } from './engine/model';
+import { prepareEmbedding } from './engine/prepare';
 import { Keyboard } from './input/keyboard';
 import { PointerInput } from './input/pointer_input';
 import { XrInput } from './input/xr_input';
@@ -31,8 +31,8 @@ export class App implements Actions {
   private baking: AbortController | null = null;
   private readonly picker = document.createElement('input');
 
-  constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, antialias: boolean) {
-    this.stage = new Stage(canvas, antialias);
+  constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, private readonly options: { antialias: boolean; embeddings: boolean }) {
+    this.stage = new Stage(canvas, options.antialias);
     this.view = new ThreeView(this.stage);
     this.studio = new Studio(core, this.view, readSettings(localStorage));
     this.pointer = new PointerInput(canvas, this.stage, this.view, this.studio);
@@ -150,7 +150,7 @@ export class App implements Actions {
 
   /** A built-in model's bake, if the server has it: after the first picture, when there is time. */
   private async fetchEmbedding(shape: string): Promise<void> {
-    if (!__EMBEDDINGS__.includes(shape)) return;
+    if (!this.options.embeddings || !__EMBEDDINGS__.includes(shape)) return;
     await new Promise((resolve) => ('requestIdleCallback' in window ? requestIdleCallback(resolve, { timeout: 3000 }) : setTimeout(resolve, 1000)));
     try {
       const response = await fetch(`embeddings/${shape}.mimicry`);
@@ -338,7 +338,7 @@ export class App implements Actions {
     const work = this.ui.messages.work('Preparing the model', () => controller.abort());
     void (async () => {
       try {
-        const bytes = await bake(mesh, { signal: controller.signal, onProgress: (stage, fraction) => work.progress(`Preparing the model: ${stage}`, fraction) });
+        const bytes = await prepareEmbedding(mesh, model!.source, controller.signal, (stage, fraction) => work.progress(`Preparing the model: ${stage}`, fraction));
         if (this.studio.state.now.model !== model) return;
         await this.whenIdle();
         this.studio.addEmbedding(bytes, 'the prepared model');

@@ -19,7 +19,7 @@ async function main(): Promise<void> {
   root.append(holder, loading);
   try {
     const core = await new Mimicry().ready;
-    const app = new App(core, root, canvas, options.get('antialias') !== 'off');
+    const app = new App(core, root, canvas, { antialias: options.get('antialias') !== 'off', embeddings: options.get('embeddings') !== 'off' });
     if (options.get('motion') === 'off' || matchMedia('(prefers-reduced-motion: reduce)').matches) app.stage.rig.instant = true;
     await app.start();
     // For tests and the curious.

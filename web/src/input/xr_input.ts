@@ -114,6 +114,7 @@ export class XrInput {
     this.session = null;
     this.hands.visible = false;
     this.view.pen.hide();
+    this.view.showTwinInRoom(false, this.studio.state.now.modelToWorld);
     this.stage.leaveXr();
     this.onEnd();
   }
@@ -169,6 +170,7 @@ export class XrInput {
       this.waiting = true;
       this.onNote('The controller was lost from sight; the stroke was ended and kept.');
     }
+    this.view.showTwinInRoom(this.studio.settings.compare !== null, this.studio.state.now.modelToWorld);
     this.hands.show(pen, other, this.studio.settings);
     this.show(pen);
   }
@@ -277,7 +279,10 @@ export class XrInput {
         this.studio.set({ style: { ...style, radius_m: clampRadius(style.radius_m * Math.exp(-y * dt_s * Math.log(kStickRate))) } });
       }
       const pushed = Math.abs(x) > 0.7 && Math.abs(x) > Math.abs(y);
-      if (pushed && !d.stick) this.nextTechnique(Math.sign(x));
+      if (pushed && !d.stick) {
+        if (d === pen) this.nextTechnique(Math.sign(x));
+        else this.nextComparison(Math.sign(x));
+      }
       d.stick = pushed;
       if (this.pushed(d, pad, kSecondButton)) this.studio.undo();
       if (this.pushed(d, pad, kFirstButton)) this.nextInk();
@@ -297,6 +302,12 @@ export class XrInput {
     const names = this.studio.core.techniques.map((t) => t.name).filter((name) => this.studio.offers(name));
     const at = names.indexOf(this.studio.settings.technique);
     this.studio.set({ technique: names[(at + step + names.length) % names.length]! });
+  }
+
+  private nextComparison(step: number): void {
+    const names = [null, ...this.studio.core.techniques.map((t) => t.name).filter((name) => this.studio.offers(name))];
+    const at = names.indexOf(this.studio.settings.compare);
+    this.studio.set({ compare: names[(at + step + names.length) % names.length]! });
   }
 
   private nextInk(): void {

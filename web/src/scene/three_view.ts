@@ -47,8 +47,21 @@ export class ThreeView implements StudioView {
 
   place(modelToWorld: Float64Array): void {
     this.model.place(modelToWorld);
-    this.twin.place(modelToWorld);
+    this.besides.set(modelToWorld);
+    if (this.inRoom) this.besides[4]! += 0.85 * this.size * modelToWorld[7]!;
+    this.twin.place(this.besides);
     this.stage.invalidate();
+  }
+
+  private readonly besides = new Float64Array(8);
+  private inRoom = false;
+
+  /** In a headset there are no halves: the model with the replayed stroke stands to the right of the other. */
+  showTwinInRoom(on: boolean, modelToWorld: Float64Array): void {
+    if (this.inRoom === on) return;
+    this.inRoom = on;
+    (on ? this.stage.scene : this.stage.twin).add(this.twin.group);
+    this.place(modelToWorld);
   }
 
   /** Looks at the whole model. */

@@ -51,10 +51,10 @@ export class XrHands {
     this.said = settings;
     this.nib.color.set(settings.tool === 'draw' ? settings.style.color : '#ffffff');
     const title = settings.tool === 'draw' ? techniqueTitle(settings.technique) : settings.tool === 'erase curve' ? 'Erase curves' : 'Erase parts';
-    this.write(title, `${(2000 * settings.style.radius_m).toFixed(1)} mm`, settings.style.color);
+    this.write(title, settings.compare ? `beside: ${techniqueTitle(settings.compare)}` : `${(2000 * settings.style.radius_m).toFixed(1)} mm`, settings.style.color);
   }
 
-  private write(title: string, size: string, color: string): void {
+  private write(title: string, second: string, color: string): void {
     const pen = this.canvas.getContext('2d')!;
     pen.clearRect(0, 0, 512, 192);
     pen.fillStyle = 'rgb(30 32 37 / 0.92)';
@@ -73,7 +73,7 @@ export class XrHands {
     pen.fillText(title, 130, 88, 360);
     pen.fillStyle = '#b9bbc0';
     pen.font = '36px system-ui, sans-serif';
-    pen.fillText(size, 130, 140);
+    pen.fillText(second, 130, 140, 360);
     this.texture.needsUpdate = true;
   }
 }

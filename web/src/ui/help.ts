@@ -16,7 +16,7 @@ const kHelp: readonly { title: string; rows: readonly [string[], string][] }[] =
   ] },
   { title: 'Headset', rows: [
     [['trigger'], 'draw, or erase'], [['squeeze, other hand'], 'hold the model, also while drawing'], [['both squeezes'], 'turn and scale'],
-    [['thumbstick ↕'], 'thickness'], [['thumbstick ↔'], 'technique'], [['B or Y'], 'undo'], [['A or X'], 'colour'],
+    [['thumbstick ↕'], 'thickness'], [['thumbstick ↔'], 'technique; other hand: one to compare with'], [['thumbstick pressed'], 'draw, erase curves, erase parts'], [['B or Y'], 'undo'], [['A or X'], 'colour'],
   ] },
 ];
 

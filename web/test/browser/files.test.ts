@@ -235,6 +235,22 @@ describe('preparing', () => {
   });
 });
 
+describe('a built-in model', () => {
+  it('is prepared already: its bake comes after the first stroke is possible', async () => {
+    const { page: fresh, context, errors } = await lab.open({ query: '&embeddings=on' });
+    expect(await fresh.evaluate(() => window.studio.studio.state.now.hasEmbedding)).toBe(false);
+    await stroke(fresh, kAcross);
+    await fresh.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
+    await fresh.keyboard.press('t');
+    await fresh.locator('input[value=mimicry]').check();
+    await fresh.keyboard.press('Escape');
+    await stroke(fresh, [[320, 280], [375, 285]]);
+    expect((await summary(fresh)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
 describe('a browser without', () => {
   it('WebGL 2 is told so', async () => {
     const context = await lab.browser.newContext();

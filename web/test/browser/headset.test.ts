@@ -155,6 +155,28 @@ describe('a headset', () => {
     expect(after.tool).toBe('erase curve');
   });
 
+  it('the other hand’s stick puts a model beside it, with the last stroke through another technique', async () => {
+    await draw();
+    const flick = (x: number): Promise<void> => page.evaluate((to) => {
+      const c = window.headset.controllers.left!;
+      return window.drive(8, (i) => {
+        if (i === 1) c.updateAxes('thumbstick', to, 0);
+        if (i === 4) c.updateAxes('thumbstick', 0, 0);
+      });
+    }, x);
+    const beside = (): Promise<unknown> => page.evaluate(() => {
+      const { twin } = window.studio.view;
+      return { compare: window.studio.studio.settings.compare, inRoom: twin.group.parent === window.studio.stage.scene, ink: twin.group.children.at(-1)!.children.length };
+    });
+    await flick(1);
+    expect(await beside()).toMatchObject({ compare: 'occlude', inRoom: true });
+    await flick(1);
+    expect(await beside()).toEqual({ compare: 'spraycan', inRoom: true, ink: 1 });
+    await flick(-1);
+    await flick(-1);
+    expect(await beside()).toMatchObject({ compare: null, inRoom: false });
+  });
+
   it('ends the stroke when the controller is lost, keeps it, and waits for a new press', async () => {
     await page.evaluate(() => {
       const c = window.headset.controllers.right!;

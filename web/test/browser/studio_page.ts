@@ -48,10 +48,11 @@ export class Lab {
     const errors: string[] = [];
     page.on('pageerror', (error) => errors.push(String(error)));
     page.on('console', (message) => {
-      if (message.type() === 'error') errors.push(message.text());
+      // A page that is not from `mimicry serve` asks in vain whether it is.
+      if (message.type() === 'error' && !message.location().url.endsWith('/api/status')) errors.push(`${message.text()} ${message.location().url}`);
     });
     if (prepare) await prepare(page);
-    await page.goto(`${this.served.url}?antialias=off&motion=off${query}`);
+    await page.goto(`${this.served.url}?antialias=off&motion=off${query || '&embeddings=off'}`);
     await page.waitForSelector('html[data-ready]', { timeout: 20000 });
     return { context, page, errors };
   }
