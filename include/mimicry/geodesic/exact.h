@@ -12,11 +12,12 @@ namespace mimicry::geodesic {
 
 struct Source {
   SurfacePoint point;
-  double distance = 0.0;  ///< the distance that it starts from, >= 0
+  double distance = 0.0;  ///< the distance that it starts from, >= 0, model units
 };
 
 struct ExactOptions {
-  /// Stop when all distances up to here are known; points farther away count as unreachable.
+  /// Stop when all distances up to here are known, model units; points farther away count as
+  /// unreachable.
   double radius = kInfinity;
   /// Stop as soon as the distances of these are known; empty: all points.
   std::span<const SurfacePoint> targets = {};
@@ -40,8 +41,9 @@ struct ExactPath {
 /// one pass and the queue holds edges. Where we differ: a window is cut where it is not nearest
 /// also in the rare case of two cuts, and distances in a sliver that rounding has left without a
 /// window are measured around the ends of its neighbours. Boundary and non-manifold edges are not
-/// crossed; faces without area and edges without length are allowed. Refers to mesh and half_edges,
-/// which must outlive it and not change.
+/// crossed, but a vertex where several fans touch is passed from each into the others (unlike
+/// `LocalPathFinder`); faces without area and edges without length are allowed. Refers to mesh and
+/// half_edges, which must outlive it and not change.
 class ExactGeodesics {
  public:
   /// O(#V + #F). Throws Error(invalid_input) where a vertex is not finite.
@@ -51,16 +53,19 @@ class ExactGeodesics {
   ExactGeodesics& operator=(ExactGeodesics&&) noexcept;
 
   /// Forgets what was computed before. Throws Error(invalid_input) for sources or targets off the
-  /// mesh or a distance that is negative or not finite. No sources: nothing is reachable. About
-  /// O(#F^1.5) in practice; single thread.
+  /// mesh or a distance that is negative or not finite. No
+  /// sources: nothing is reachable. About O(#F^1.5) in practice; single thread.
   void compute(std::span<const Source> sources, const ExactOptions& options = {});
   void compute(const SurfacePoint& source, const ExactOptions& options = {});
 
-  /// kInfinity where no source reaches the vertex, or the search stopped before.
+  /// Model units; kInfinity where no source reaches the vertex, or the search stopped before. The
+  /// vertex is one of the mesh's.
   double distance(Index vertex) const;
-  /// Distance at any surface point, which must be valid.
+  /// Distance at any surface point. Throws Error(invalid_input) for one off the mesh. O(windows of
+  /// its face's edges).
   double distance(const SurfacePoint& p) const;
-  /// The shortest path to p, traced back through the windows. O(crossings).
+  /// The shortest path to p, traced back through the windows. Throws Error(invalid_input) for p off
+  /// the mesh. O(windows of the edges crossed).
   ExactPath path_to(const SurfacePoint& p) const;
 
   /// False after a search that gave up (`ExactOptions::most_windows`).

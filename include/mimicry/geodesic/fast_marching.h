@@ -11,10 +11,10 @@ namespace mimicry::geodesic {
 /// and Sethian 1998): the front crosses one triangle at a time. A triangle's third corner is
 /// updated from a virtual source unfolded into its plane (Novotni and Klein 2002), which is exact
 /// wherever the way back to the source unfolds flat; labels that turn out too large (behind obtuse
-/// angles) are corrected until nothing changes by more than 1e-5 of its value. Mean error about 0.1
-/// to 0.3 % on evenly meshed shapes; not exact on coarse, strongly curved ones. Works on any faces:
-/// boundaries, several components, non-manifold edges, faces without area. Immutable; the mesh is
-/// not needed afterwards. One source costs about 0.3 microseconds a vertex.
+/// angles) are corrected until nothing changes by more than 1e-5 of its value. Mean error 0.1 to
+/// 0.4 % on evenly meshed shapes; 11 % on a cube whose vertices are all noise (docs/geodesics.md).
+/// Works on any faces: boundaries, several components, non-manifold edges, faces without area.
+/// Immutable; the mesh is not needed afterwards. One source costs about 0.3 microseconds a vertex.
 class FastMarching {
  public:
   explicit FastMarching(const TriangleMesh& mesh);
@@ -33,7 +33,8 @@ class FastMarching {
 
   Index vertex_count() const { return static_cast<Index>(first_.size()) - 1; }
 
-  /// distances: #V, mesh units; kInfinity at vertices that no face joins to the source.
+  /// source: a vertex of the mesh. distances: #V, mesh units; kInfinity at vertices that no face
+  /// joins to the source.
   void distances(Index source, std::span<double> distances, Scratch& scratch) const;
 
   /// Lowers `nearest` (#V, distances to the nearest of earlier sources, kInfinity at first) to
