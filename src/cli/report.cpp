@@ -75,7 +75,7 @@ void run(Arguments args) {
   const StudyRows rows(io::read_csv(files::read_file(rows_file.string()), args.rows), args.rows);
   const std::vector<RejectedStroke> rejected = rejected_beside(rows_file);
   const Summary summary = summarise(rows, args.summary);
-  if (!rows.has(args.gallery.measure))
+  if (args.gallery.count > 0 && !rows.has(args.gallery.measure))
     throw Error(ErrorKind::invalid_input,
                 "--gallery-by: " + args.rows + " has no column '" + args.gallery.measure + "'");
   if (args.gallery.sources.recordings.empty()) args.gallery.sources.recordings = args.folder;
