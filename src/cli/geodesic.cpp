@@ -99,6 +99,16 @@ std::string distances_csv(const geodesic::ExactGeodesics& geodesics, Index verti
   return out;
 }
 
+// A path is no table and a table no path: whoever mixes up the names forgot --to or gave it too
+// much.
+void check_out(const Arguments& args) {
+  if (args.to && args.out.ends_with(".csv"))
+    throw CLI::ValidationError("--out", "with --to a path is written, as JSON; name a .json file");
+  if (!args.to && args.out.ends_with(".json"))
+    throw CLI::ValidationError(
+        "--out", "without --to distances are written, as CSV; name a .csv file, or give --to");
+}
+
 void run(const Arguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.allow_nonmanifold);
@@ -108,10 +118,18 @@ void run(const Arguments& args, int& status) {
   if (args.to) to = parse_point(*args.to, target);
 
   geodesic::ExactGeodesics geodesics(target.mesh(), target.half_edges());
+  check_out(args);
   geodesic::ExactOptions options;
   options.radius = args.radius;
   if (to) options.targets = {&*to, 1};
   geodesics.compute(sources, options);
+  if (!geodesics.exact()) {
+    std::fprintf(stderr,
+                 "mimicry: %s: too many windows; the search gave up, and distances are upper "
+                 "bounds; repair the mesh or give --radius\n",
+                 named.name.c_str());
+    status = kPartly;
+  }
   if (!to) {
     files::write_file_atomically(args.out, distances_csv(geodesics, named.mesh.vertex_count()));
     std::printf("%s: %d distances\n", args.out.c_str(), named.mesh.vertex_count());

@@ -341,6 +341,9 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   }
   for (std::size_t i = 0; i < options.targets.size(); ++i)
     check_surface_point(mesh, options.targets[i], "target " + std::to_string(i));
+  if (std::isnan(options.radius) || options.radius < 0.0)
+    throw Error(ErrorKind::invalid_input,
+                "radius " + std::to_string(options.radius) + ": it must be at least 0");
 
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
   lists.reset(surface.edge_half_edges.size());

@@ -152,6 +152,10 @@ class CommandLine(unittest.TestCase):
         apart = run("geodesic", "shape:two-spheres:2", "--from", "v0", "--to", "v80", "-o",
                     self.path("none.json"), expect=5)
         self.assertIn("no path", apart.stdout)
+        self.assertIn("name a .json", run("geodesic", grid, "--from", "v0", "--to", "v1", "-o",
+                                          self.path("p.csv"), expect=2).stderr)
+        self.assertIn("give --to", run("geodesic", grid, "--from", "v0", "-o", self.path("d.json"),
+                                       expect=2).stderr)
         self.assertFalse(os.path.exists(self.path("none.json")))
 
     def test_study_targets(self):

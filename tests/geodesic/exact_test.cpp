@@ -432,6 +432,18 @@ TEST(ExactGeodesics, BadInputIsNamed) {
   EXPECT_NO_THROW(geodesics.compute({0, Vec3(1.0 + 5e-7, -5e-7, 0.0)}));
   const Source negative{{0, Vec3(1, 0, 0)}, -1.0};
   EXPECT_THROW(geodesics.compute({&negative, 1}), Error);
+  const Source good{{0, Vec3(1, 0, 0)}, 0.0};
+  ExactOptions options;
+  for (const double radius : {-1.0, std::nan("")}) {
+    options.radius = radius;
+    EXPECT_THROW(geodesics.compute({&good, 1}, options), Error);
+  }
+  const SurfacePoint off{99, Vec3(1, 0, 0)};
+  options = {};
+  options.targets = {&off, 1};
+  EXPECT_THROW(geodesics.compute({&good, 1}, options), Error);
+  geodesics.compute({&good, 1});
+  EXPECT_THROW(geodesics.path_to(off), Error);
   EXPECT_THROW(geodesics.distance(SurfacePoint{0, Vec3(2, 0, 0)}), Error);
   EXPECT_THROW(ExactGeodesics(mesh.with_positions(std::vector<Vec3>(mesh.positions().size(),
                                                                     Vec3::Constant(kInfinity))),

@@ -53,7 +53,7 @@ class ExactGeodesics {
   ExactGeodesics& operator=(ExactGeodesics&&) noexcept;
 
   /// Forgets what was computed before. Throws Error(invalid_input) for sources or targets off the
-  /// mesh or a distance that is negative or not finite. No
+  /// mesh, a distance that is negative or not finite, or a radius that is negative or NaN. No
   /// sources: nothing is reachable. About O(#F^1.5) in practice; single thread.
   void compute(std::span<const Source> sources, const ExactOptions& options = {});
   void compute(const SurfacePoint& source, const ExactOptions& options = {});
