@@ -19,7 +19,7 @@ export interface Actions {
 
 /** What a file is called under which an export is saved. */
 export const kExports: readonly { format: CurveFormat; title: string; what: string }[] = [
-  { format: 'json', title: 'Curves, JSON', what: 'points, faces, edge crossings' },
+  { format: 'json', title: 'Curves, JSON', what: 'with edge crossings' },
   { format: 'glb', title: 'Scene, GLB', what: 'model and tubes in colour' },
   { format: 'obj', title: 'Polylines, OBJ', what: 'for modelling programs' },
   { format: 'ply', title: 'Polylines, PLY', what: 'with colours' },

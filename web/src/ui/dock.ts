@@ -72,7 +72,7 @@ export function dock(studio: Studio): HTMLElement[] {
   const liftText = h('span');
   const field = (label: string, ...controls: Node[]): HTMLElement => h('div', { class: 'field' }, h('span', {}, label), ...controls);
   const panel = h('div', { id: 'pen-panel', popover: 'auto', role: 'dialog', 'aria-label': 'Symmetry, pen and hand' },
-    field('Symmetry', mirror.element), field('Pen', place.element), field('Height of the ink', lift, liftText), field('Drawing hand (VR)', hand.element));
+    field('Symmetry', mirror.element), field('Pen', place.element), field('Ink height', lift, liftText), field('Drawing hand (VR)', hand.element));
 
   studio.state.watch(({ settings }) => {
     tools.show(settings.tool);

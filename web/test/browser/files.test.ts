@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { torusObj } from './meshes';
@@ -160,11 +161,15 @@ describe('drawings', () => {
       'Table, CSV': (b) => b.toString().startsWith('curve,stroke,'),
       'Recorded strokes': (b) => JSON.parse(b.toString()).format === 'mimicry-strokes',
     };
+    let glb: Buffer = Buffer.alloc(0);
     for (const [item, right] of Object.entries(looks)) {
       const { name, bytes } = await downloaded(page, () => menu(item));
       expect(name).toMatch(/^hand-(curves\.(json|glb|obj|ply|csv)|strokes\.json)$/);
       expect(right(bytes), item).toBe(true);
+      if (name.endsWith('.glb')) glb = bytes;
     }
+    await choose({ name: 'scene.glb', bytes: glb });
+    await expect.poll(modelName).toBe('scene.glb');
   });
 
   it('export their erased curves in parts', async () => {
@@ -232,6 +237,20 @@ describe('preparing', () => {
     await page.waitForSelector('html[data-ready]');
     expect(await page.evaluate(() => window.studio.studio.state.now.hasEmbedding)).toBe(true);
     expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
+  });
+});
+
+describe('a .mimicry file', () => {
+  it('switches the techniques on that need it, on its own model only', async () => {
+    const torus = { name: 'torus.mimicry', bytes: readFileSync('public/embeddings/torus.mimicry') };
+    await choose(torus);
+    await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/of another mesh/);
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await choose(torus);
+    await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
+    await page.evaluate(() => window.studio.studio.set({ technique: 'snap-smooth' }));
+    await stroke(page, kRing);
+    expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['snap-smooth']);
   });
 });
 

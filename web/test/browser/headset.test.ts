@@ -5,7 +5,7 @@ import { join, resolve } from 'node:path';
 import type { Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { emulateHeadset } from './headset';
-import { downloaded, Lab, messages, summary, type Opened } from './studio_page';
+import { downloaded, Lab, messages, reset, summary, type Opened } from './studio_page';
 
 const kNative = process.env['MIMICRY_PROGRAM'] ?? resolve('../build/release/bin/mimicry');
 
@@ -13,18 +13,34 @@ let lab: Lab;
 let opened: Opened;
 let page: Page;
 
-beforeAll(async () => { lab = await Lab.start(); });
+// A small window: its pictures are drawn by the processor.
+beforeAll(async () => {
+  lab = await Lab.start();
+  opened = await lab.open({ viewport: kWindow, prepare: emulateHeadset });
+  page = opened.page;
+});
 afterAll(() => lab.stop());
 beforeEach(async () => {
-  opened = await lab.open({ viewport: { width: 320, height: 240 }, prepare: emulateHeadset });
-  page = opened.page;
-  await page.getByRole('button', { name: 'VR' }).click();
-  await page.waitForFunction(() => window.studio.stage.renderer.xr.isPresenting);
+  await reset(page);
+  await enter();
 });
 afterEach(async () => {
+  await page.evaluate(async () => {
+    for (const one of Object.values(window.headset.controllers)) {
+      one!.connected = true;
+      for (const button of ['trigger', 'squeeze']) one!.updateButtonValue(button, 0);
+    }
+    await window.studio.xr.exit();
+  });
   expect(opened.errors).toEqual([]);
-  await opened.context.close();
 });
+
+const kWindow = { width: 240, height: 180 };
+
+async function enter(): Promise<void> {
+  await page.getByRole('button', { name: 'VR' }).dispatchEvent('click');
+  await page.waitForFunction(() => window.studio.stage.renderer.xr.isPresenting);
+}
 
 /** A wavy stroke with the drawing hand across the model, from press to release. */
 function draw(hand: 'left' | 'right' = 'right', count = 40): Promise<void> {
@@ -207,13 +223,17 @@ describe('a headset', () => {
     await page.waitForFunction(() => !window.studio.stage.renderer.xr.isPresenting);
     const { curves, drawing } = await summary(page);
     expect([curves.length, drawing]).toEqual([1, false]);
-    await expect.poll(() => page.$eval('canvas', (canvas) => [canvas.width, canvas.height])).toEqual([320, 240]);
+    await expect.poll(() => page.$eval('canvas', (canvas) => [canvas.width, canvas.height])).toEqual([kWindow.width, kWindow.height]);
   });
 
   it('that is denied is answered by a sentence', async () => {
     await page.evaluate(() => window.studio.xr.exit());
     await page.evaluate(() => {
-      navigator.xr!.requestSession = () => Promise.reject(new DOMException('no', 'NotAllowedError'));
+      const xr = navigator.xr!, own = xr.requestSession;
+      xr.requestSession = () => {
+        xr.requestSession = own;
+        return Promise.reject(new DOMException('no', 'NotAllowedError'));
+      };
       window.studio.enterXr('immersive-vr');
     });
     await expect.poll(() => messages(page)).toEqual([expect.stringContaining('permission was denied')]);
@@ -228,12 +248,11 @@ describe('replay', () => {
     await page.evaluate(() => window.studio.xr.exit());
     await page.setInputFiles('input[type=file]', mesh);
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'shape.obj');
-    await page.getByRole('button', { name: 'VR' }).click();
-    await page.waitForFunction(() => window.studio.stage.renderer.xr.isPresenting);
+    await enter();
     const diagonal = await page.evaluate(() => window.studio.studio.target!.diagonal);
     for (const technique of ['mimicry-live', 'snap', 'anchored-closest', 'spraycan', 'occlude', 'anchored-ray-plane']) {
       await page.evaluate((name) => { window.studio.studio.clear(); window.studio.studio.set({ technique: name }); }, technique);
-      await draw('right', 50);
+      await draw('right', 30);
       expect((await summary(page)).curves, technique).toHaveLength(1);
       const strokes = join(folder, 'strokes.json'), out = join(folder, technique);
       writeFileSync(strokes, (await downloaded(page, () => page.evaluate(() => window.studio.exportStrokes()))).bytes);
