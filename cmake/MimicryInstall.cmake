@@ -2,7 +2,8 @@ include(CMakePackageConfigHelpers)
 
 get_property(targets GLOBAL PROPERTY MIMICRY_INSTALLED)
 get_property(modules GLOBAL PROPERTY MIMICRY_INSTALLED_HEADERS)
-install(TARGETS ${targets} EXPORT mimicry-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${targets} EXPORT mimicry-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(module IN LISTS modules)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/mimicry/${module}"
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mimicry)
@@ -45,4 +46,16 @@ Requires: eigen3
 Cflags: -I\${includedir} -DEIGEN_MPL2_ONLY
 Libs: -L\${libdir} ${link_line}-pthread
 ")
-install(FILES "${PROJECT_BINARY_DIR}/mimicry.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(WRITE "${PROJECT_BINARY_DIR}/mimicry-c.pc"
+"prefix=\${pcfiledir}/../..
+libdir=\${pcfiledir}/..
+includedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}
+
+Name: mimicry-c
+Description: ${PROJECT_DESCRIPTION}: the C interface
+Version: ${PROJECT_VERSION}
+Cflags: -I\${includedir}
+Libs: -L\${libdir} -lmimicry
+")
+install(FILES "${PROJECT_BINARY_DIR}/mimicry.pc" "${PROJECT_BINARY_DIR}/mimicry-c.pc"
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
