@@ -248,7 +248,10 @@ describe('a .mimicry file', () => {
     await page.evaluate(() => window.studio.openShape('torus'));
     await choose(torus);
     await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
-    await page.evaluate(() => window.studio.studio.set({ technique: 'snap-smooth' }));
+    await page.evaluate(() => {
+      window.studio.studio.set({ technique: 'snap-smooth' });
+      document.querySelectorAll('.message').forEach((message) => message.remove()); // they float over the model
+    });
     await stroke(page, kRing);
     expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['snap-smooth']);
   });
