@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
@@ -50,11 +52,31 @@ constexpr std::array<std::pair<std::string_view, const char*>, 13> kTypes = {{
     {".map", "application/json"},
 }};
 
+constexpr std::size_t kMostPacked = std::size_t{1} << 30;
+
 const char* type_of(const fs::path& file) {
   const std::string ending = file.extension().string();
   for (const auto& [known, type] : kTypes)
     if (ending == known) return type;
   return "application/octet-stream";
+}
+
+// For WebAssembly: the HTTP library compresses text alone.
+std::string gzipped(std::string_view content) {
+  constexpr int kGzip = 15 + 16;  // the window's bits, and gzip's header
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) !=
+      Z_OK)
+    throw std::bad_alloc();
+  std::string packed(deflateBound(&stream, static_cast<uLong>(content.size())), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);  // there is room for all of it
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
 }
 
 // The IPv4 addresses of the machine's interfaces; those of a network of its own first.
@@ -141,7 +163,16 @@ struct Server::State {
         std::mismatch(studio.begin(), studio.end(), file.begin(), file.end()).first == studio.end();
     if (!inside || wanted.find('\0') != std::string::npos || !fs::is_regular_file(file, trouble))
       return refuse(response, 404, request.path + ": there is no such file");
-    response.set_content(files::read_file(file.string()), type_of(file));
+    std::string content = files::read_file(file.string());
+    if (file.extension() == ".wasm") {
+      response.set_header("Vary", "Accept-Encoding");
+      if (!request.has_header("Range") && content.size() < kMostPacked &&
+          request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos) {
+        content = gzipped(content);
+        response.set_header("Content-Encoding", "gzip");
+      }
+    }
+    response.set_content(std::move(content), type_of(file));
     // Built files carry a hash of their content in their names.
     const bool immutable = request.path.starts_with("/assets/");
     response.set_header("Cache-Control",

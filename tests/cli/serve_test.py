@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """`mimicry serve`: the page and nothing beside it, HTTPS, bakes with their limits. usage: serve_test.py MIMICRY"""
+import gzip
 import http.client
 import json
 import os
@@ -85,6 +86,8 @@ class Serve(unittest.TestCase):
             status, headers, body = server.ask("GET", "/assets/core-1a2b.wasm")
             self.assertEqual((status, headers["Content-Type"], body), (200, "application/wasm", b"\0asm"))
             self.assertIn("immutable", headers["Cache-Control"])
+            _, headers, body = server.ask("GET", "/assets/core-1a2b.wasm", **{"Accept-Encoding": "gzip, br"})
+            self.assertEqual((headers["Content-Encoding"], gzip.decompress(body)), ("gzip", b"\0asm"))
             for path in ["/none", "/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/assets/../../secret.txt",
                          "/link.txt", "//etc/passwd", "/assets", "/assets/", "/%00", "/index.html%00.txt", "/..\\secret.txt"]:
                 status, _, body = server.ask("GET", path)
