@@ -158,6 +158,60 @@ TEST(PlanarSection, IsTheClosestPointOfTheSection) {
   }
 }
 
+// By the definition: cuts every face, and keeps what hangs together with q's face over edges that
+// the plane cuts.
+double distance_to_component(const TriangleMesh& mesh, const HalfEdges& edges,
+                             const SurfacePoint& q, const Vec3& normal, const Vec3& r) {
+  const Vec3 origin = mesh.position(q);
+  std::vector<bool> is_part(static_cast<std::size_t>(mesh.face_count()), false);
+  std::vector<Index> stack = {q.face};
+  is_part[static_cast<std::size_t>(q.face)] = true;
+  double best = (origin - r).norm();
+  while (!stack.empty()) {
+    const Index f = stack.back();
+    stack.pop_back();
+    std::vector<Vec3> ends;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      const Vec3 &a = mesh.position(edges.tail(h)), &b = mesh.position(edges.head(h));
+      const double sa = normal.dot(a - origin), sb = normal.dot(b - origin);
+      if ((sa < 0.0) == (sb < 0.0)) continue;
+      ends.push_back(a + sa / (sa - sb) * (b - a));
+      if (!edges.has_twin(h)) continue;
+      const Index next = HalfEdges::face(edges.twin(h));
+      if (is_part[static_cast<std::size_t>(next)]) continue;
+      is_part[static_cast<std::size_t>(next)] = true;
+      stack.push_back(next);
+    }
+    if (ends.size() != 2) continue;
+    const Vec3 way = ends[1] - ends[0];
+    const double length2 = way.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp((r - ends[0]).dot(way) / length2, 0.0, 1.0) : 0.0;
+    best = std::min(best, (ends[0] + t * way - r).norm());
+  }
+  return best;
+}
+
+TEST(PlanarSection, IsTheClosestPointOfItsComponentOnBentSurfaces) {
+  Random random(5);
+  for (const TriangleMesh& mesh : {make_torus(24, 12), make_hand(1), make_trefoil(6),
+                                   make_noisy_cube(6, 0.2, true, 3), make_moebius_strip(24)}) {
+    const HalfEdges edges(mesh);
+    for (int i = 0; i < 200; ++i) {
+      SurfacePoint q{
+          static_cast<Index>(random.below(static_cast<std::uint32_t>(mesh.face_count()))),
+          Vec3(random.uniform(), random.uniform(), random.uniform())};
+      q.bary /= q.bary.sum();
+      const Vec3 normal = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+      const Vec3 r =
+          mesh.position(q) + 0.2 * Vec3(random.normal(), random.normal(), random.normal());
+      const SurfacePoint x = closest_on_section(mesh, edges, q, normal, r);
+      EXPECT_NEAR((mesh.position(x) - r).norm(), distance_to_component(mesh, edges, q, normal, r),
+                  1e-6)
+          << "trial " << i;
+    }
+  }
+}
+
 TEST(PlanarSection, StaysOnItsComponent) {
   const TriangleMesh mesh = make_two_spheres(6);
   const SurfacePoint q = spatial::Target(mesh).closest_point(Vec3(-0.55, 0.45, 0.0))->surface;
