@@ -73,12 +73,12 @@ struct Timed {
     Random random(1);
     const double diagonal = target.diagonal();
     std::vector<double> warm, cold;
-    int fallbacks = 0, jumps = 0;
+    int fallbacks = 0, jumps = 0, shared = 0;
     double worst = 0.0;
     for (int s = 0; s < 40; ++s) {
       SurfacePoint at = random_point(random);
       Vec3 x = target.position(at), direction = random_vector(random);
-      Vec3 before_y = Vec3::Zero(), before_q = Vec3::Zero();
+      Vec3 before_y = Vec3::Zero(), before_q = Vec3::Zero(), before_snap = Vec3::Zero();
       embedding::ScpHint hint;
       for (int i = 0; i < 200; ++i) {
         const Vec3 normal = target.normal(at);
@@ -99,17 +99,23 @@ struct Timed {
         hint = after;
         cold.push_back(least_us([&] { projector.project(y); }));
         if (q.label != embedding::ScpLabel::smooth) ++fallbacks;
+        const Vec3 snap = target.closest_point(y)->position;
         if (i > 0) {
-          const double ratio = (q.position - before_q).norm() / (y - before_y).norm();
+          const double way = (y - before_y).norm(), ratio = (q.position - before_q).norm() / way;
           worst = std::max(worst, ratio);
           if (ratio > 5.0) ++jumps;
+          if (ratio > 5.0 && (snap - before_snap).norm() > 5.0 * way) ++shared;
         }
         before_y = y;
         before_q = q.position;
+        before_snap = snap;
       }
     }
-    std::printf("  at %.0f %%: %zu points, %d not smooth, largest |dq|/|dp| %.1f, above 5: %d\n",
-                100.0 * offset, warm.size(), fallbacks, worst, jumps);
+    std::printf(
+        "  at %.0f %%: %zu points, %d not smooth, largest |dq|/|dp| %.1f, above 5: %d, where "
+        "closest "
+        "points jump too: %d\n",
+        100.0 * offset, warm.size(), fallbacks, worst, jumps, shared);
     print_quantiles("warm", std::move(warm));
     print_quantiles("cold", std::move(cold));
   }

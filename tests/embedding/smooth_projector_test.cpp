@@ -193,6 +193,63 @@ TEST(SmoothProjector, TheSphereIsSmootherThanItsFacets) {
   EXPECT_LT(smooth_worst, 0.5 * snap_worst);
 }
 
+// A projected path beside the ideal one: how far each step's length is off the ideal one's, and the
+// turning of the whole way.
+class PathLine {
+ public:
+  explicit PathLine(const Vec3& start) : q_(start) {}
+  void add(const Vec3& to, double ideal_length) {
+    const Vec3 step = to - q_;
+    off_.push_back(std::abs(step.norm() / ideal_length - 1.0));
+    q_ = to;
+    if (step.norm() < 1e-12) return;
+    if (!way_.isZero(0.0)) turning_ += std::atan2(way_.cross(step).norm(), way_.dot(step));
+    way_ = step;
+  }
+  double quantile(double part) {
+    std::sort(off_.begin(), off_.end());
+    return off_[static_cast<std::size_t>(part * static_cast<double>(off_.size() - 1))];
+  }
+  double turning() const { return turning_; }
+
+ private:
+  std::vector<double> off_;
+  double turning_ = 0.0;
+  Vec3 q_, way_ = Vec3::Zero();
+};
+
+TEST(SmoothProjector, IsSmootherThanSnapAtEveryResolution) {
+  // Around the sphere and along the torus; smoothness_bench has the figures.
+  constexpr int kSteps = 2000;
+  for (const std::string_view name : {"sphere", "torus"})
+    for (const int resolution : {6, 9, 13}) {
+      const Baked shape(std::string(name), make_shape(name, {.resolution = resolution}));
+      const auto path = [&](int i) -> Vec3 {
+        const double a = 2.0 * 3.141592653589793 * i / kSteps;
+        if (name == "sphere") return 1.1 * Vec3(std::cos(a), 0.6 * std::sin(a), 0.8 * std::sin(a));
+        const double around = 0.7 + 0.5 * std::sin(3.0 * a), minor = kTorusMinorRadius + 0.1;
+        const double ring = kTorusMajorRadius + minor * std::cos(around);
+        return {ring * std::cos(a), ring * std::sin(a), minor * std::sin(around)};
+      };
+      const auto smooth_at = [&](int i) { return shape.projector.project(path(i))->position; };
+      const auto snap_at = [&](int i) { return shape.target.closest_point(path(i))->position; };
+      Vec3 ideal_before = *analytic_closest_point(name, path(0));
+      PathLine smooth(smooth_at(0)), snap(snap_at(0)), ideal(ideal_before);
+      for (int i = 1; i <= kSteps; ++i) {
+        const Vec3 x = *analytic_closest_point(name, path(i));
+        const double length = (x - ideal_before).norm();
+        ideal.add(x, length);
+        smooth.add(smooth_at(i), length);
+        snap.add(snap_at(i), length);
+        ideal_before = x;
+      }
+      for (const double part : {0.5, 0.9, 0.99, 1.0})
+        EXPECT_LT(smooth.quantile(part), snap.quantile(part)) << name << resolution << " " << part;
+      EXPECT_LT(smooth.turning(), snap.turning()) << name << resolution;
+      EXPECT_GT(smooth.turning(), 0.99 * ideal.turning()) << name << resolution;
+    }
+}
+
 TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
   const Baked& shape = sphere();
   const auto refused = [](Embedding e, const spatial::Target& target, const std::string& what) {
@@ -283,6 +340,80 @@ TEST(Spline, IsSmoothOnTheSurface) {
     // the sphere.
     EXPECT_LT(fine, 0.35) << shape->name;
     EXPECT_LT(fine, 1.2 * coarse) << shape->name;
+  }
+}
+
+// Turns, within the surface, from one step of a curve to the one after the next.
+struct Turns {
+  double in_faces = 0.0;      // the largest where both are in one face
+  double across_edges = 0.0;  // the largest where they are in two faces, laid out flat
+};
+
+Turns turns_of(const TriangleMesh& mesh, const std::vector<SmoothPoint>& curve) {
+  Turns turns;
+  for (std::size_t i = 3; i < curve.size(); ++i) {
+    const Index f = curve[i - 2].surface.face, g = curve[i - 1].surface.face;
+    if (curve[i - 3].surface.face != f || curve[i].surface.face != g) continue;
+    const Vec3 a = curve[i - 2].position - curve[i - 3].position;
+    const Vec3 b = curve[i].position - curve[i - 1].position;
+    Vec3 edge = mesh.corner(f, 1) - mesh.corner(f, 0);
+    if (f != g) {
+      std::vector<Index> shared;
+      for (const Index v : mesh.face(f))
+        for (const Index w : mesh.face(g))
+          if (v == w) shared.push_back(v);
+      if (shared.size() != 2) continue;
+      edge = mesh.position(shared[1]) - mesh.position(shared[0]);
+    }
+    edge.normalize();
+    const Vec3 across_f = mesh.area_vector(f).normalized().cross(edge);
+    const Vec3 across_g = mesh.area_vector(g).normalized().cross(edge);
+    const Vec2 from(a.dot(edge), a.dot(across_f)), to(b.dot(edge), b.dot(across_g));
+    double& worst = f == g ? turns.in_faces : turns.across_edges;
+    worst = std::max(worst, std::abs(std::atan2(from[0] * to[1] - from[1] * to[0], from.dot(to))));
+  }
+  return turns;
+}
+
+TEST(Spline, TurnsSmoothlyWithinFacesAndLittleAcrossEdges) {
+  for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
+    std::vector<SurfacePoint> controls;
+    for (int i = 0; i < 7; ++i) {
+      const double a = 0.35 * i;
+      controls.push_back(
+          shape->target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))
+              ->surface);
+    }
+    const auto turns = [&](Index points) {
+      return turns_of(shape->target.mesh(), b_spline_curve(shape->projector, controls, points));
+    };
+    // Within faces, and there where spans meet, a corner would keep its angle.
+    const Turns coarse = turns(800), fine = turns(6400);
+    EXPECT_LT(fine.in_faces, 0.5 * coarse.in_faces) << shape->name;
+    // Across edges some degrees are left, at finer resolutions of the mesh too
+    // (docs/smoothness.md).
+    EXPECT_LT(fine.across_edges, 0.1) << shape->name;
+  }
+}
+
+TEST(SmoothProjector, OnTheMedialAxisThereIsALabelledAnswer) {
+  // Between the sides of a thin box, in the middle of the torus's tube, where two spheres are
+  // equally near.
+  const Baked plate("plate", make_box(12, 9, 1, Vec3(1.0, 0.75, 0.02)));
+  struct Case {
+    const Baked* shape;
+    Vec3 y;
+  };
+  for (const Case& c :
+       {Case{&plate, Vec3(0.1, 0.2, 0.0)}, Case{&plate, Vec3::Zero()},
+        Case{shapes()[1].get(), Vec3(0.8, 0.0, 0.0)}, Case{shapes()[1].get(), Vec3::Zero()},
+        Case{&sphere(), Vec3::Zero()}, Case{shapes()[4].get(), Vec3::Zero()}}) {
+    const auto q = c.shape->projector.project(c.y, {true});
+    ASSERT_TRUE(q);
+    EXPECT_EQ(q->position, c.shape->projector.project(c.y, {true})->position);
+    // That is what "replaced" is for: nothing farther than this is left.
+    EXPECT_LE((q->position - c.y).norm(),
+              c.shape->target.closest_point(c.y)->distance + c.shape->target.diagonal() / 20.0);
   }
 }
 
