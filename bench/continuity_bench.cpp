@@ -1,9 +1,11 @@
 // How steadily the anchored techniques answer a steady hand: |dq| / |dp|, the motion of the curve's
 // point over the motion of the pen between two frames.
-//   continuity_bench [--seeds N] [--shapes NAME,NAME...] [--list N]
-// First 90 Hz strokes of the study's curves, open and closed loop, steps of at least 0.5 mm; then
-// every anchored technique on every shape along the same hands' paths in steps of 1 mm. Every step
-// is counted, none is left out; the largest ratios are listed with where they happen.
+//   continuity_bench [--seeds N] [--shapes NAME,NAME...] [--list N] [--only PART]
+// with PART open, closed, rates or steps.
+// First 90 Hz strokes of the study's curves, open and closed loop, steps of at least 0.5 mm; where
+// they end at other frame rates; then every anchored technique on every shape along the same hands'
+// paths in steps of 1 mm. Every step is counted, none is left out; the largest ratios are listed
+// with where they happen.
 // Deterministic whatever the number of threads.
 
 #include <algorithm>
@@ -84,12 +86,6 @@ struct Tally {
     return static_cast<double>(ratios[static_cast<std::size_t>(at)]);
   }
 };
-
-const char* name_of(technique::Answer answer) {
-  constexpr const char* kNames[] = {"miss",    "ray",     "closest",  "smooth",
-                                    "section", "outside", "no-phong", "replaced"};
-  return kNames[static_cast<std::size_t>(answer)];
-}
 
 // A stroke is drawn frame by frame.
 class Drawing {
@@ -202,7 +198,8 @@ void print_jump(const Scene& scene, const Way& way, const Jump& j) {
       "    %-14s %-24s curve %2zu seed %d frame %3zu: %6.2f (pen %.2f mm, curve %.2f mm, "
       "%.2f %% of the diagonal off r), %s after %s\n",
       scene.name.c_str(), way.label.c_str(), j.curve, j.seed, j.frame, j.ratio, j.pen_mm,
-      j.curve_mm, j.off_percent, name_of(j.after), name_of(j.before));
+      j.curve_mm, j.off_percent, technique::answer_name(j.after).data(),
+      technique::answer_name(j.before).data());
 }
 
 void sweep(const std::vector<std::unique_ptr<Scene>>& scenes, const std::vector<Way>& ways,
@@ -234,15 +231,84 @@ void sweep(const std::vector<std::unique_ptr<Scene>>& scenes, const std::vector<
   for (std::size_t w = 0; w < ways.size(); ++w) row("all", ways[w], all[w]);
 }
 
+// Where the same strokes end at 30 and 240 Hz, beside 90 Hz: distances in millimetres. All rates
+// see the first frame whose spray hits, and the last one.
+void compare_rates(const std::vector<std::unique_ptr<Scene>>& scenes, const std::vector<Way>& ways,
+                   int seeds, int threads, std::size_t most) {
+  constexpr std::size_t kEvery30 = 24, kEvery90 = 8, kEvery240 = 3;  // of 720 Hz
+  struct End {
+    double apart_mm;
+    std::string where;
+  };
+  study::SimulationOptions options;
+  options.rate_hz = 720;
+  std::vector<std::vector<End>> ends(ways.size());
+  for (const auto& scene : scenes) {
+    const std::size_t strokes = scene->curves.size() * static_cast<std::size_t>(seeds);
+    std::vector<std::vector<std::vector<End>>> each(strokes);
+    parallel_for(strokes, threads, [&](std::size_t s) {
+      const std::size_t c = s / static_cast<std::size_t>(seeds);
+      const int seed = static_cast<int>(s % static_cast<std::size_t>(seeds)) + 1;
+      const auto frames = study::simulate(scene->target, scene->curves[c], scene->place, options,
+                                          static_cast<std::uint64_t>(seed))
+                              .frames;
+      each[s].resize(ways.size());
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        std::size_t first = 0;
+        Drawing waiting(*scene, ways[w], c, seed);
+        while (first < frames.size() && !waiting.add(frames[first])) ++first;
+        if (first + kEvery30 >= frames.size()) continue;
+        const std::size_t last = first + (frames.size() - 1 - first) / kEvery30 * kEvery30;
+        const auto end = [&](std::size_t every) {
+          Drawing drawing(*scene, ways[w], c, seed);
+          Vec3 q = Vec3::Zero();
+          for (std::size_t i = first; i <= last; i += every)
+            if (const auto ink = drawing.add(frames[i])) q = *ink;
+          return q;
+        };
+        const Vec3 at_90 = end(kEvery90);
+        for (const std::size_t every : {kEvery30, kEvery240})
+          each[s][w].push_back({1e3 * (end(every) - at_90).norm(),
+                                scene->name + " curve " + std::to_string(c) + " seed " +
+                                    std::to_string(seed) +
+                                    (every == kEvery30 ? " at 30 Hz" : " at 240 Hz")});
+      }
+    });
+    for (auto& stroke : each)
+      for (std::size_t w = 0; w < ways.size(); ++w)
+        for (End& e : stroke[w]) ends[w].push_back(std::move(e));
+  }
+  std::printf("%-24s %6s %8s %8s %8s %6s\n", "technique", "ends", "median", "p99", "largest",
+              "> 1 mm");
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    auto& of = ends[w];
+    if (of.empty()) continue;
+    std::stable_sort(of.begin(), of.end(),
+                     [](const End& a, const End& b) { return a.apart_mm < b.apart_mm; });
+    const auto over =
+        std::find_if(of.begin(), of.end(), [](const End& e) { return e.apart_mm > 1; });
+    const auto at = [&](double q) {
+      return of[static_cast<std::size_t>(q * static_cast<double>(of.size() - 1))].apart_mm;
+    };
+    std::printf("%-24s %6zu %8.3f %8.3f %8.3f %6d\n", ways[w].label.c_str(), of.size(), at(0.5),
+                at(0.99), of.back().apart_mm, static_cast<int>(of.end() - over));
+    for (std::size_t k = 0; k < std::min(most, of.size()); ++k)
+      std::printf("    %s: %.2f mm\n", of[of.size() - 1 - k].where.c_str(),
+                  of[of.size() - 1 - k].apart_mm);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int seeds = 5;
   std::size_t most = 3;
+  std::string only;
   std::vector<std::string> wanted;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string word = argv[i];
     if (word == "--seeds") seeds = std::atoi(argv[i + 1]);
+    if (word == "--only") only = argv[i + 1];
     if (word == "--list") most = static_cast<std::size_t>(std::atoi(argv[i + 1]));
     if (word == "--shapes") {
       std::istringstream names(argv[i + 1]);
@@ -294,12 +360,21 @@ int main(int argc, char** argv) {
                                       {"mimicry soft", &mimicry, soft},
                                       {"mimicry-live soft", &live, soft}};
 
-  if (!study_scenes.empty()) {
+  const auto is_due = [&](const char* part) { return only.empty() || only == part; };
+  if (!study_scenes.empty() && is_due("open")) {
     std::printf("the study's curves, %d seeds, 90 Hz, open loop\n", seeds);
     sweep(study_scenes, main_ways, Hand::open, seeds, threads, most);
-    std::printf("\nthe same, closed loop\n");
+  }
+  if (!study_scenes.empty() && is_due("closed")) {
+    std::printf("\nthe study's curves, %d seeds, 90 Hz, closed loop\n", seeds);
     sweep(study_scenes, main_ways, Hand::closed, seeds, threads, most);
   }
+  if (!study_scenes.empty() && is_due("rates")) {
+    std::printf("\nthe study's curves, %d seeds: ends at 30 and 240 Hz from those at 90 Hz, mm\n",
+                seeds);
+    compare_rates(study_scenes, {main_ways[2], main_ways[3]}, seeds, threads, most);
+  }
+  if (!is_due("steps")) return 0;
   std::printf("\nevery anchored technique, steps of 1 mm, %d seeds\n", seeds);
   for (auto& scene : study_scenes) built_in.push_back(std::move(scene));
   sweep(built_in, anchored, Hand::even, seeds, threads, most);

@@ -153,10 +153,13 @@ Step live_step(const Canvas& canvas, const Memory& memory, const stroke::Frame& 
 Step mimicry_live(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                   const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
-  const Vec3 r = anchored_point(canvas, memory, frame, options);
-  Step step = without_jump(canvas, memory, frame, options, live_step(canvas, memory, frame, r));
-  keep_rest(canvas, memory, frame, options, r, step);
-  return step;
+  return step_in_parts(
+      canvas, memory, frame, options, [&](const Memory& from, const stroke::Frame& to) {
+        const Vec3 r = anchored_point(canvas, from, to, options);
+        Step step = without_jump(canvas, from, to, options, live_step(canvas, from, to, r));
+        keep_rest(canvas, from, to, options, r, step);
+        return step;
+      });
 }
 
 }  // namespace mimicry::technique

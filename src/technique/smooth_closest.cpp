@@ -55,11 +55,14 @@ Step snap_smooth(const Canvas& canvas, const Memory& memory, const stroke::Frame
 Step mimicry(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
              const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
-  const Vec3 r = anchored_point(canvas, memory, frame, options);
-  Step step = without_jump(canvas, memory, frame, options,
-                           smooth_closest(canvas, memory, frame, options, r));
-  keep_rest(canvas, memory, frame, options, r, step);
-  return step;
+  return step_in_parts(
+      canvas, memory, frame, options, [&](const Memory& from, const stroke::Frame& to) {
+        const Vec3 r = anchored_point(canvas, from, to, options);
+        Step step =
+            without_jump(canvas, from, to, options, smooth_closest(canvas, from, to, options, r));
+        keep_rest(canvas, from, to, options, r, step);
+        return step;
+      });
 }
 
 // Paper, Eq. offset: the motion's part across the offset surface through p_i is dropped,

@@ -61,4 +61,35 @@ inline void keep_rest(const Canvas& canvas, const Memory& memory, const stroke::
   step.memory.rest = norm > limit ? Vec3(limit / norm * rest) : rest;
 }
 
+/// A step with the soft anchor, long motions in parts of at most kLongestPart: what is carried over
+/// then acts at the same places whatever the frame rate. step(memory, frame) makes one part.
+template <class OneStep>
+Step step_in_parts(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
+                   const Options& options, OneStep&& step) {
+  constexpr double kLongestPart = 1.5e-3;  // metres
+  constexpr double kMostParts = 16.0;
+  if (options.soft_anchor.on == 0.0) return step(memory, frame);
+  const Vec3 motion = frame.controller.position - memory.pen;
+  const double wanted = motion.norm() * canvas.metres_per_unit / kLongestPart;
+  const int parts = static_cast<int>(std::ceil(std::min(std::max(wanted, 1.0), kMostParts)));
+  if (parts == 1) return step(memory, frame);
+  Step last;
+  Memory at = memory;
+  for (int k = 1; k <= parts; ++k) {
+    stroke::Frame part = frame;
+    if (k < parts) {
+      const double t = static_cast<double>(k) / parts;
+      part.time_s = memory.time_s + t * (frame.time_s - memory.time_s);
+      part.controller.position = memory.pen + t * motion;
+    }
+    last = step(at, part);
+    if (last.answer == Answer::miss) return miss(memory);
+    at = last.memory;
+  }
+  // To the outside it is one step.
+  last.memory.points = memory.points + 1;
+  last.memory.motion = motion;
+  return last;
+}
+
 }  // namespace mimicry::technique

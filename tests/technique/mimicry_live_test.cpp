@@ -255,8 +255,8 @@ TEST(MimicryLive, SameBitsAndNoAllocation) {
 TEST(SoftAnchor, WhatIsCarriedFadesAndIsLimited) {
   const spatial::Target target(make_grid(8));
   const Memory memory = anchored_at(target, Vec3(0.1, 0.1, 0));
-  // 4 mm per unit: the limit of 6 mm is 1.5 units.
-  const Canvas canvas{&target, 0.004};
+  // 1 mm per unit, so that the first motion is one part; the limit of 6 mm is 6 units.
+  const Canvas canvas{&target, 0.001};
   const Step up = live().step(canvas, memory, moved(memory, Vec3(0, 0, 1.0)), soft());
   const double step_fade = std::exp(-0.5 / 90 / 0.12);  // the second half of the step's
   EXPECT_LT((up.memory.rest - step_fade * Vec3(0, 0, 1)).norm(), 1e-13);
@@ -265,7 +265,7 @@ TEST(SoftAnchor, WhatIsCarriedFadesAndIsLimited) {
   Memory far = up.memory;
   for (int i = 0; i < 5; ++i)
     far = live().step(canvas, far, moved(far, Vec3(0, 0, 9.0)), soft()).memory;
-  EXPECT_LT((far.rest - Vec3(0, 0, 1.5)).norm(), 1e-13);
+  EXPECT_LT((far.rest - Vec3(0, 0, 6.0)).norm(), 1e-13);
   const Step off = live().step(canvas, memory, moved(memory, Vec3(0, 0, 1.0)), {});
   EXPECT_EQ(off.memory.rest, Vec3::Zero());
 }
