@@ -68,8 +68,10 @@ Step step_in_parts(const Canvas& canvas, const Memory& memory, const stroke::Fra
                    const Options& options, OneStep&& step) {
   constexpr double kLongestPart = 1.5e-3;  // metres
   constexpr double kMostParts = 16.0;
+  constexpr double kFarthestHand = 1e60;  // squares beyond it overflow
   if (options.soft_anchor.on == 0.0) return step(memory, frame);
   const Vec3 motion = frame.controller.position - memory.pen;
+  if (!(motion.cwiseAbs().maxCoeff() <= kFarthestHand)) return step(memory, frame);
   const double wanted = motion.norm() * canvas.metres_per_unit / kLongestPart;
   const int parts = static_cast<int>(std::ceil(std::min(std::max(wanted, 1.0), kMostParts)));
   if (parts == 1) return step(memory, frame);
