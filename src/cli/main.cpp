@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   add_measure(app, status);
   add_targets(app, status);
   add_serve(app, status);
+  add_participants(app, status);
+  add_replay(app, status);
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {

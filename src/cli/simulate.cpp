@@ -17,6 +17,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/study_shapes.h"
 #include "cli/target_curves.h"
 
 namespace mimicry::cli {
@@ -81,16 +82,6 @@ Task task_of(const Arguments& args, const NamedMesh& named, const spatial::Targe
                     "curves, or --shape NAME if it is a built-in shape");
   require_same_size(named, target, shape);
   return {study::intended_curves(shape, target), info->metres_per_unit};
-}
-
-// Upright, its middle 1.2 m above the floor.
-Similarity placement(const spatial::Target& target, double metres_per_unit, bool z_up) {
-  Similarity placed;
-  if (z_up) placed.rotation = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitY());
-  placed.scale = metres_per_unit;
-  placed.translation =
-      Vec3(0.0, 1.2, 0.0) - metres_per_unit * (placed.rotation * target.bounding_box().center());
-  return placed;
 }
 
 stroke::Stroke make_stroke(const technique::Canvas& canvas, const stroke::Intention& intended,

@@ -140,11 +140,11 @@ OrderedJson to_json(const Intention& intention) {
 }  // namespace
 
 void read_strokes(std::string_view bytes, std::string_view name,
-                  const std::function<void(Stroke&&)>& visit) {
+                  const std::function<void(Stroke&&)>& visit, std::size_t first) {
   Header header;
   header.name = name;
   std::string key;
-  std::size_t count = 0;
+  std::size_t count = first;
   std::size_t frames = 0;  // of the stroke that is being read
   bool has_strokes = false;
   const auto event = [&](int depth, Json::parse_event_t kind, Json& value) {

@@ -24,7 +24,8 @@ enum Stream : std::uint64_t {
   kNoise,
   kWobble,
   kTurnTremor,
-  kTurnNoise
+  kTurnNoise,
+  kStart
 };
 
 std::size_t at(int i) {
@@ -60,6 +61,7 @@ void check(const SimulationOptions& o) {
                                     {o.turn_noise_rad, "turn_noise_rad"},
                                     {o.speed_exponent, "speed_exponent"},
                                     {o.start_m, "start_m"},
+                                    {o.start_error_m, "start_error_m"},
                                     {o.aimed_start_s, "aimed_start_s"},
                                     {o.head_distance_m, "head_distance_m"},
                                     {o.facing_rad, "facing_rad"},
@@ -74,6 +76,11 @@ void check(const SimulationOptions& o) {
                                     {o.least_wobble_hz, "least_wobble_hz"},
                                     {o.most_wobble_hz, "most_wobble_hz"}})
     if (!within(value, 0, 1000)) fail(std::string(name) + " is not within 0 to 1000");
+  if (!within(o.turned_correction, 0, 1)) fail("turned_correction is not within 0 to 1");
+  if (!within(o.head_follow, 0, 1)) fail("head_follow is not within 0 to 1");
+  if (!within(o.head_turn, 0, 1)) fail("head_turn is not within 0 to 1");
+  if (!within(o.wrist_part, 0, 0.9)) fail("wrist_part is not within 0 to 0.9");
+  if (!within(o.coordination, 0, 1)) fail("coordination is not within 0 to 1");
   if (!within(o.least_curvature, 1e-9, 1e9)) fail("least_curvature is not within 1e-9 to 1e9");
   if (!is_finite(o.viewer) || o.viewer.norm() < 1e-9) fail("viewer must be a direction");
 }
@@ -213,6 +220,11 @@ HandPath hand_path(const Path& path, const SimulationOptions& options) {
   const double sigma = options.smoothing_m / path.step;
   HandPath hand;
   hand.base = smoothed(path.points, sigma, path.closed ? Ends::closed : Ends::reflected);
+  if (options.wrist_part > 0) {
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& x : hand.base) centre += x / static_cast<double>(hand.base.size());
+    for (Vec3& x : hand.base) x += options.wrist_part * (centre - x);
+  }
   if (!is_offset) {
     hand.away.assign(path.points.size(), mean);
     return hand;
@@ -326,7 +338,7 @@ std::vector<Vec3> head_positions(const std::vector<Vec3>& tips, const std::vecto
     directions.push_back(direction);
   }
   low_pass(directions, dt, 0.3);
-  // The body follows about half of the hand's way, slowly.
+  // The body follows a part of the hand's way, slowly.
   std::vector<Vec3> centres = tips;
   low_pass(centres, dt, 0.5);
   Vec3 mean = Vec3::Zero();
@@ -334,7 +346,7 @@ std::vector<Vec3> head_positions(const std::vector<Vec3>& tips, const std::vecto
   mean /= static_cast<double>(tips.size());
   std::vector<Vec3> heads;
   for (std::size_t i = 0; i < tips.size(); ++i)
-    heads.push_back(0.5 * (mean + centres[i]) +
+    heads.push_back(mean + options.head_follow * (centres[i] - mean) +
                     options.head_distance_m * unit_or(directions[i], options.viewer.normalized()));
   return heads;
 }
@@ -371,9 +383,11 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
   const auto settled = [&options](double t) {
     return options.aimed_start_s > 0 ? 1 - std::exp(-t / options.aimed_start_s) : 1.0;
   };
+  Random start_random(seed, kStart);
+  const Vec3 start_error = white(options.start_error_m, start_random);
   std::vector<Vec3> disturbance;
   for (int f = 0; f < frames; ++f)
-    disturbance.push_back(settled(f * dt) * drift(f * dt) + tremor(f * dt) +
+    disturbance.push_back(start_error + settled(f * dt) * drift(f * dt) + tremor(f * dt) +
                           white(options.noise_m, noise_random));
 
   std::vector<Vec3> hand_points(hand.base.size());
@@ -440,6 +454,13 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
   Random turn_noise_random(seed, kTurnNoise);
   const std::vector<Vec3> heads = head_positions(plan.tips, plan.normals, dt, options);
 
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& tip : plan.tips) middle += tip / static_cast<double>(frames);
+  const auto looked_at = [&](std::size_t i) -> Vec3 {
+    if (options.head_turn == 1) return plan.tips[i];
+    return middle + options.head_turn * (plan.tips[i] - middle);
+  };
+
   stroke::Stroke stroke;
   stroke.id = intended.name;
   stroke.model_to_world = place;
@@ -448,7 +469,8 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
   Gaze gaze(dt);
   Quat aim = Quat::Identity();
   Vec3 aim_direction = Vec3::Zero();
-  Vec3 correction = Vec3::Zero();
+  Vec3 correction = Vec3::Zero();  // of the hand's place, and of the point that it aims at
+  Vec3 aim_correction = Vec3::Zero();
   std::vector<Vec3> errors;
   const auto delay = static_cast<std::size_t>(std::lround(options.feedback_delay_s / dt));
   for (int f = 0; f < frames; ++f) {
@@ -458,13 +480,17 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
       const Vec3& seen = errors[std::min(i - delay, errors.size() - 1)];
       const double speed = options.feedback_gain_per_s * seen.norm();
       const double allowed = std::min(speed, options.most_correction_m_per_s);
-      if (speed > 0) correction += dt * allowed * seen.normalized();
+      if (speed > 0) {
+        const Vec3 step = dt * allowed * seen.normalized();
+        correction += (1 - options.turned_correction) * step;
+        aim_correction += options.turned_correction * step;
+      }
     }
     stroke::Frame frame;
     frame.time_s = t;
     frame.controller.position = plan.tips[i] + disturbance[i] + correction;
 
-    const Vec3 to_point = plan.intended[i] - plan.tips[i];
+    const Vec3 to_point = plan.intended[i] + aim_correction - plan.tips[i];
     const Vec3 forward = to_point.norm() > 1e-3
                              ? Vec3(to_point.normalized())
                              : unit_or(-plan.normals[i], -options.viewer.normalized());
@@ -474,12 +500,15 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
     // three axes, hence the root of 1.5 above.
     Vec3 turn = settled(t) * wobble(t);
     turn -= turn.dot(forward) * forward;
+    if (options.coordination > 0)
+      frame.controller.position -=
+          options.coordination * to_point.norm() * (small_turn(turn) * forward - forward);
     turn += turn_tremor(t) + white(options.turn_noise_rad, turn_noise_random);
     frame.controller.orientation = (small_turn(turn) * aim).normalized();
 
     frame.head.position = heads[i];
     frame.head.orientation =
-        gaze(unit_or(plan.tips[i] + correction - heads[i], -options.viewer.normalized()));
+        gaze(unit_or(looked_at(i) + correction - heads[i], -options.viewer.normalized()));
     if (ink != nullptr) {
       const std::optional<Vec3> point = (*ink)(frame);
       errors.push_back(point ? Vec3(plan.intended[i] - *point) : Vec3(Vec3::Zero()));

@@ -1,5 +1,6 @@
 """The study laboratory as its users run it: lab_cli_test.py PROGRAM STUDY_DATA."""
 
+import csv
 import json
 import os
 import random
@@ -115,6 +116,182 @@ class Compare(Folder):
         self.assertIn("curve 7", run("compare", twice, "-m", "a,b", expect=3).stderr)
         self.assertIn("line 2", run("compare", self.write("u.csv", "method,K_E\na\n"), "-m", "a,b",
                                     expect=3).stderr)
+
+
+class Replay(Folder):
+    """Recorded strokes through techniques, on coarse built-in shapes."""
+
+    TECHNIQUES = "anchored-closest,mimicry-live,spraycan"
+
+    def strokes(self, count=3):
+        file = self.path("s.json")
+        run("simulate", "shape:torus:24", "--rate", "30", "--count", str(count), "--out", file)
+        return file
+
+    def replay(self, out, *args, expect=0):
+        return run("replay", "--out", self.path(out), "-t", self.TECHNIQUES, *args, expect=expect)
+
+    def rows(self, out):
+        with open(self.path(out, "rows.csv"), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def read(self, *names):
+        with open(self.path(*names), "rb") as file:
+            return file.read()
+
+    def test_one_row_a_stroke_and_technique(self):
+        file = self.strokes()
+        done = self.replay("a", "--strokes", file, "--mesh", "shape:torus:24")
+        rows = self.rows("a")
+        with open(file, encoding="utf-8") as f:
+            ids = [s["id"] for s in json.load(f)["strokes"]]
+        self.assertEqual([(r["stroke"], r["method"]) for r in rows],
+                         [(i, t) for i in ids for t in self.TECHNIQUES.split(",")])
+        self.assertIn(f"{3 * len(ids)} rows, 0 of them rejected", done.stdout)
+        lines = [json.loads(line) for line in self.read("a", "rows.jsonl").splitlines()]
+        self.assertEqual(len(lines), len(rows))
+        for line, row in zip(lines, rows):
+            self.assertEqual(list(line), list(row))
+            self.assertEqual(line["D_ep_mm"], float(row["D_ep_mm"]))
+            self.assertTrue(0.1 < line["D_ep_mm"] < 200, row)
+        compared = run("compare", self.path("a", "rows.csv"), "-m", "anchored-closest,mimicry-live",
+                       "--json")
+        self.assertEqual(json.loads(compared.stdout)["groups"][0]["pairs"], len(ids))
+
+    def test_same_bytes_whatever_the_threads(self):
+        file = self.strokes()
+        for out, threads in (("a", "1"), ("b", "2"), ("c", "5")):
+            self.replay(out, "--strokes", file, "--mesh", "shape:torus:24", "--threads", threads)
+        for name in ("rows.csv", "rows.jsonl"):
+            self.assertEqual(self.read("a", name), self.read("b", name))
+            self.assertEqual(self.read("a", name), self.read("c", name))
+
+    def test_killed_runs_go_on_and_lose_or_double_nothing(self):
+        file = self.strokes(40)
+        known = ["--strokes", file, "--mesh", "shape:torus:24", "--threads", "1"]
+        self.replay("whole", *known)
+        command = [PROGRAM, "replay", "--out", self.path("cut"), "-t", self.TECHNIQUES, *known]
+        kills = 0
+        for wait in (0.02, 0.05, 0.1, 0.15, 0.2, 0.1, 0.3):
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            try:
+                process.wait(timeout=wait)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+                kills += 1
+        self.assertGreater(kills, 0)
+        self.replay("cut", *known)
+        for name in ("rows.csv", "rows.jsonl"):
+            self.assertEqual(self.read("whole", name), self.read("cut", name), name)
+
+    def test_whatever_was_written_last_is_cut_to_whole_jobs(self):
+        file = self.strokes()
+        known = ["--strokes", file, "--mesh", "shape:torus:24"]
+        self.replay("whole", *known)
+        journal = self.read("whole", "rows.journal")
+        for part in (0, 10, len(journal) // 2, len(journal) - 1):
+            shutil.copytree(self.path("whole"), self.path(f"p{part}"))
+            with open(self.path(f"p{part}", "rows.journal"), "wb") as f:
+                f.write(journal[:part])
+            self.replay(f"p{part}", *known)
+            for name in ("rows.csv", "rows.jsonl"):
+                self.assertEqual(self.read("whole", name), self.read(f"p{part}", name), part)
+        self.assertIn("other strokes", self.replay("whole", "--strokes", file, expect=3).stderr)
+
+    def test_bad_strokes_are_rejected_with_reasons_and_the_rest_goes_on(self):
+        with open(self.strokes(1), encoding="utf-8") as f:
+            data = json.load(f)
+        good = json.dumps(data["strokes"][0])
+        bad = [json.loads(good) for _ in range(5)]
+        bad[0]["frames"] = []
+        bad[1]["frames"][3]["time_s"] = -5
+        bad[2]["target"] = "donut"
+        del bad[3]["intended"]
+        bad[4]["intended"]["face"][0] = 999999
+        data["strokes"] = [json.loads(good), *bad, json.loads(good)]
+        file = self.write("bad.json", json.dumps(data))
+        shapes = self.path("shapes")
+        os.mkdir(shapes)
+        run("shapes", "torus", "--resolution", "24", "--out", os.path.join(shapes, "torus.ply"))
+        done = self.replay("o", "--strokes", file, "--shapes", shapes, expect=5)
+        rows = self.rows("o")
+        self.assertEqual(len(rows), 21)
+        reasons = [r["rejected"] for r in rows[::3]]
+        for reason, word in zip(reasons, ["", "empty", "frame 3", "donut", "no intended", "999999",
+                                          ""]):
+            self.assertIn(word, reason)
+            self.assertEqual(word == "", reason == "")
+        self.assertIn("vertices", reasons[5])
+        self.assertIn("stroke 1", done.stderr)
+        self.assertIn("21 rows, 15 of them rejected", done.stdout)
+        cut = self.write("cut.json", json.dumps(data)[:-20000])
+        self.replay("c", "--strokes", cut, "--shapes", shapes, expect=5)
+        self.assertIn("ends early", self.rows("c")[-1]["rejected"])
+        self.assertIn("there", self.replay("n", "--strokes", self.path("none"), expect=4).stderr)
+        self.replay("e", "--strokes", self.write("e.json", "{}"), expect=3)
+
+
+class Participants(Folder):
+    def targets(self):
+        """Curves of the torus as a file of targets."""
+        run("simulate", "shape:torus", "--rate", "30", "--out", self.path("s.json"))
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            curves = [s["intended"] for s in json.load(file)["strokes"]]
+        shape = {"name": "torus", "scale": 0.4, "curves":
+                 [{"face": c["face"], "bary": c["bary"]} for c in curves[:2]]}
+        return self.write("t.json", json.dumps({"shapes": [shape]}))
+
+    def test_protocol_recordings_and_replay(self):
+        targets = self.targets()
+        known = ["--targets", targets, "--count", "3", "--rate", "30", "-t",
+                 "spraycan,anchored-closest"]
+        for out, threads in (("a", "1"), ("b", "2")):
+            run("participants", *known, "--out", self.path(out), "--threads", threads)
+        for person in ("p00", "p01", "p02"):
+            self.assertEqual(sorted(os.listdir(self.path("a", person))),
+                             ["0_0.json", "2_0.json", "study_sequence.json"])
+            for name in os.listdir(self.path("a", person)):
+                with open(self.path("a", person, name), "rb") as a, \
+                        open(self.path("b", person, name), "rb") as b:
+                    self.assertEqual(a.read(), b.read(), name)
+        with open(self.path("a", "p01", "study_sequence.json"), encoding="utf-8") as file:
+            sequence = json.load(file)
+        self.assertEqual(sequence["MethodSequence"], [2, 0])
+        with open(self.path("a", "p00", "0_0.json"), encoding="utf-8") as file:
+            strokes = json.load(file)
+        self.assertEqual(len(strokes), 4)
+        piece = strokes[0][0]
+        self.assertEqual(piece["M"], "Spray")
+        self.assertEqual(set(piece["F"][0]["DF"]), {"T", "HP", "PP", "HU", "HF", "CU", "CF", "SD"})
+        times = [f["DF"]["T"] for s in strokes for p in s for f in p["F"]]
+        self.assertEqual(times, sorted(times))
+
+        run("replay", "--strokes", self.path("a", "p00"), self.path("a", "p01"), "--targets",
+            targets, "-t", "spraycan,snap", "--out", self.path("o"))
+        with open(self.path("o", "rows.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 2 * 2 * 4 * 2)
+        # The same technique again gives what was drawn.
+        again = [r for r in rows if r["method"] == "spraycan" and r["stroke"].startswith("0_")]
+        self.assertLess(max(float(r["D_ep_mm"]) for r in again), 30)
+        self.assertEqual({r["task"] for r in rows}, {"tracing", "re-creating"})
+        self.assertEqual(sorted({r["repeat"] for r in rows}), ["0", "1"])
+
+        os.remove(self.path("a", "p00", "2_0.json"))
+        os.mkdir(self.path("a", "nobody"))
+        done = run("replay", "--strokes", self.path("a", "nobody"), self.path("a", "p00"),
+                   "--targets", targets, "-t", "snap", "--out", self.path("q"), expect=5)
+        self.assertIn("study_sequence.json", done.stderr)
+        self.assertIn("2_0.json", done.stderr)
+        self.assertIn("9 rows, 5 of them rejected", done.stdout)
+
+    def test_errors(self):
+        targets = self.targets()
+        self.assertIn("twice", run("participants", "--targets", targets, "-t", "snap,snap", "--out",
+                                   self.path("x"), expect=3).stderr)
+        self.assertIn("no shape", run("participants", "--targets", targets, "--only", "cat", "--out",
+                                      self.path("x"), expect=3).stderr)
 
 
 if __name__ == "__main__":

@@ -18,9 +18,9 @@ inline constexpr int kStrokesVersion = 1;
 /// messages. Throws Error naming file, stroke and frame: JSON that is cut off or malformed (with
 /// the byte), another format, a version that is unknown (unsupported), a field that is missing or
 /// of the wrong kind, a frame that cannot be used (`stroke::frame_problem`). Strokes before the
-/// fault have been handed over by then.
+/// fault have been handed over by then. `first`: the number of the first stroke, for messages.
 void read_strokes(std::string_view bytes, std::string_view name,
-                  const std::function<void(stroke::Stroke&&)>& visit);
+                  const std::function<void(stroke::Stroke&&)>& visit, std::size_t first = 0);
 std::vector<stroke::Stroke> read_strokes(std::string_view bytes, std::string_view name);
 
 /// Writes a `mimicry-strokes` file piece by piece into `sink`, in the convention asked for. The

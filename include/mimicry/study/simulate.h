@@ -40,16 +40,29 @@ struct SimulationOptions {
   double wobble_rad = 8 * std::numbers::pi / 180;  ///< study: of the controller's aim
   double least_wobble_hz = 0.1;                    ///< assumed
   double most_wobble_hz = 0.5;                     ///< assumed
+  double start_error_m = 0.0;  ///< assumed: the hand's error when the trigger is pulled, kept
   double aimed_start_s = 0.5;  ///< assumed: drift and wobble grow from zero with this time constant
   double turn_tremor_rad = 0.1 * std::numbers::pi / 180;  ///< assumed; in the tremor's band
   double turn_noise_rad = 0.03 * std::numbers::pi / 180;  ///< assumed, white
   double head_distance_m = 0.45;                          ///< study: from head to tip, about
+  double head_follow = 0.5;  ///< assumed: part of the hand's way that the body follows
+  /// assumed: part of the gaze's way that the head turns after the tip; the eyes do the rest
+  double head_turn = 1.0;
   Vec3 viewer = Vec3(0, 0.3, 1);  ///< assumed: where the drawer stands, seen from the target
   double facing_rad = 60 * std::numbers::pi / 180;  ///< assumed: beyond this the head moves around
   double most_head_turn_rad_per_s = 0.8;            ///< assumed: how fast it moves around the tip
   double feedback_delay_s = 0.15;        ///< physiology: from seeing an error to correcting it
   double feedback_gain_per_s = 4.0;      ///< physiology: part of the visible error removed a second
   double most_correction_m_per_s = 0.2;  ///< assumed: a jump of the ink is not chased faster
+  /// assumed: part of a correction that is made by turning the controller, not by moving it; for
+  /// techniques that spray. 0 to 1.
+  double turned_correction = 0.0;
+  /// assumed: part of the wobble's effect at the surface that the hand's place makes good, as
+  /// people do who aim along the nozzle. 0 to 1.
+  double coordination = 0.0;
+  /// assumed: part of the way that is aimed at by turning the wrist: the hand's path is smaller by
+  /// it. 0 to 0.9.
+  double wrist_part = 0.0;
 };
 
 /// Where a technique inks for this frame (world), nothing on a miss. Called once for each frame, in

@@ -1,0 +1,150 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <mimicry/base/error.h>
+#include <mimicry/base/parallel.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/csv.h>
+#include <mimicry/technique/technique.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/mesh_input.h"
+#include "cli/replay_jobs.h"
+#include "cli/row_journal.h"
+#include "cli/study_shapes.h"
+
+namespace mimicry::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> strokes;
+  std::vector<std::string> techniques;
+  std::string shapes;
+  std::string mesh;
+  std::string targets;
+  std::string out;
+  std::string misses = "connect";
+  int threads = 0;
+};
+
+// What decides the rows: an interrupted run is only taken up by the same. Also the file
+// replay.json.
+nlohmann::ordered_json settings_of(const Arguments& args) {
+  namespace fs = std::filesystem;
+  using Json = nlohmann::ordered_json;
+  const auto absolute = [](const std::string& path) {
+    return path.empty() ? path : fs::absolute(path).lexically_normal().string();
+  };
+  Json strokes = Json::array(), bytes = Json::array();
+  for (const std::string& path : args.strokes) {
+    std::error_code none;
+    const auto size = fs::file_size(path, none);
+    strokes.push_back(absolute(path));
+    bytes.push_back(none ? 0 : size);
+  }
+  return {{"version", MIMICRY_VERSION},
+          {"strokes", strokes},
+          {"bytes", bytes},
+          {"techniques", args.techniques},
+          {"shapes", absolute(args.shapes)},
+          {"mesh", args.mesh},
+          {"targets", absolute(args.targets)},
+          {"misses", args.misses}};
+}
+
+void run(const Arguments& args, int& status) {
+  ReplayOptions options;
+  for (const std::string& name : args.techniques)
+    options.techniques.push_back(&technique::find_technique(name));
+  options.shapes = args.shapes;
+  options.targets = args.targets;
+  options.mesh = args.mesh;
+  options.misses =
+      args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
+  Executor executor(thread_count(args.threads));
+  const Replayer replayer(options);
+  ReplaySource source(args.strokes);
+  const nlohmann::ordered_json settings = settings_of(args);
+  RowJournal journal(args.out, settings.dump(), io::csv_heading(replay_columns()));
+  files::write_file_atomically((std::filesystem::path(args.out) / "replay.json").string(),
+                               settings.dump(2) + "\n");
+
+  // Jobs that were finished before the interruption.
+  std::size_t job = 0;
+  for (; job < journal.jobs(); ++job)
+    if (!source.next()) break;
+  if (journal.jobs() > 0)
+    std::fprintf(stderr, "mimicry: %s: %zu rows are there already; the rest follows\n",
+                 args.out.c_str(), journal.rows());
+
+  ProgressLine progress("replaying");
+  // Large enough that no thread waits long for the last job of a batch.
+  const std::size_t batch_jobs = 64 * static_cast<std::size_t>(executor.threads());
+  for (bool more = true; more;) {
+    std::vector<ReplayJob> batch;
+    std::size_t weight = 0;
+    while (weight < batch_jobs) {
+      std::optional<ReplayJob> next = source.next();
+      more = next.has_value();
+      if (!more) break;
+      weight += next->weight();
+      batch.push_back(std::move(*next));
+    }
+    std::vector<ReplayRows> rows(batch.size());
+    executor.for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, int) {
+      rows[i] = replayer.run(batch[i]);
+      batch[i] = {};  // its text is not needed any more
+    });
+    for (const ReplayRows& r : rows) {
+      for (const std::string& reason : r.reasons)
+        std::fprintf(stderr, "mimicry: rejected: %s\n", reason.c_str());
+      journal.append(r.csv, r.json_lines, r.rows, r.rejected);
+    }
+    progress.update(source.bytes_read(), source.bytes());
+  }
+  journal.finish();
+  std::printf("%s: %zu rows, %zu of them rejected\n", journal.csv_path().c_str(), journal.rows(),
+              journal.rejected());
+  if (journal.rejected() > 0 || journal.rows() == 0)
+    status = journal.rejected() < journal.rows() ? kPartly : kBadInput;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& status) {
+  auto* command = app.add_subcommand(
+      "replay", "Draw recorded strokes again with any technique, and measure the curves");
+  auto args = std::make_shared<Arguments>();
+  command
+      ->add_option("--strokes", args->strokes,
+                   "mimicry-strokes files, and folders of a study's participants")
+      ->required();
+  command->add_option("-t,--techniques", args->techniques, "Names (mimicry techniques)")
+      ->delimiter(',')
+      ->required();
+  command->add_option("--shapes", args->shapes,
+                      "Folder of the targets' mesh files (default: the built-in shapes)");
+  command->add_option("--mesh", args->mesh,
+                      std::string("All strokes were drawn on this one: ") + kMeshHelp);
+  command->add_option("--targets", args->targets,
+                      "Target curves; needed for participants' folders");
+  command
+      ->add_option("-o,--out", args->out,
+                   "Folder for rows.csv and rows.jsonl; an interrupted run goes on there")
+      ->required();
+  command->add_option("--misses", args->misses, "Where a point is undefined: connect or split")
+      ->check(CLI::IsMember({"connect", "split"}))
+      ->capture_default_str();
+  command->add_option("--threads", args->threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->callback([args, &status] { run(*args, status); });
+}
+
+}  // namespace mimicry::cli

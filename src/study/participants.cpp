@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include <mimicry/base/error.h>
+#include <mimicry/base/random.h>
+#include <mimicry/study/participants.h>
+
+namespace mimicry::study {
+namespace {
+
+// Streams of a person's seed; trials use seeds of their own.
+enum Stream : std::uint64_t { kPerson, kOrder, kStroke, kRecall };
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+double draw(const Spread& spread, Random& random) {
+  return spread.median * std::exp(spread.log_deviation * random.normal());
+}
+
+// Well-mixed seeds of numbers that follow each other (splitmix64; Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (number + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+double world_length(const spatial::Target& target, const stroke::Intention& curve, double scale) {
+  double length = 0;
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    length += (target.position(curve.points[i]) - target.position(curve.points[i - 1])).norm();
+  return scale * length;
+}
+
+void shuffle(std::vector<Index>& list, Random& random) {
+  for (std::size_t i = list.size(); i > 1; --i)
+    std::swap(list[i - 1], list[random.below(static_cast<std::uint32_t>(i))]);
+}
+
+void require_faces(const spatial::Target& target, const stroke::Intention& curve) {
+  for (const SurfacePoint& p : curve.points)
+    if (p.face < 0 || p.face >= target.mesh().face_count())
+      throw Error(ErrorKind::invalid_input,
+                  "participants: curve " + curve.name + ": face " + std::to_string(p.face) +
+                      " is not in the target's " + std::to_string(target.mesh().face_count()) +
+                      "; pass the mesh that the curve was made on");
+}
+
+}  // namespace
+
+Participant participant(const PopulationOptions& options, std::uint64_t seed, Index number) {
+  Participant person;
+  person.seed = mixed(seed, static_cast<std::uint64_t>(number));
+  Random random(person.seed, kPerson);
+  SimulationOptions& hand = person.hand;
+  person.pace = draw(options.pace, random);
+  hand.tremor_m = draw(options.tremor_m, random);
+  hand.noise_m = draw(options.noise_m, random);
+  hand.turn_tremor_rad = draw(options.turn_tremor_rad, random);
+  hand.mean_distance_m = draw(options.distance_m, random);
+  hand.drift_m = draw(options.drift_m, random);
+  hand.wobble_rad = draw(options.wobble_rad, random);
+  hand.feedback_gain_per_s = draw(options.gain_per_s, random);
+  hand.feedback_delay_s = draw(options.delay_s, random);
+  hand.smoothing_m = draw(options.smoothing_m, random);
+  hand.head_follow = draw(options.head_follow, random);
+  hand.head_turn = options.head_turn;
+  hand.facing_rad = options.facing_rad;
+  hand.start_error_m = options.start_error_m;
+  return person;
+}
+
+StudySequence study_sequence(std::span<const Index> methods, std::span<const Index> shapes,
+                             std::span<const Index> curve_counts, std::uint64_t seed,
+                             Index number) {
+  if (methods.empty() || shapes.empty() || curve_counts.size() != shapes.size() || number < 0)
+    throw Error(ErrorKind::invalid_input,
+                "study sequence: needs methods, shapes, and a number of curves for each shape");
+  StudySequence sequence;
+  sequence.methods.assign(methods.begin(), methods.end());
+  const std::size_t n = methods.size();
+  std::rotate(sequence.methods.begin(),
+              sequence.methods.begin() + static_cast<std::ptrdiff_t>(at(number) % n),
+              sequence.methods.end());
+  // Two rotations of two are each other's reverse already.
+  if (n > 2 && (at(number) / n) % 2 == 1)
+    std::reverse(sequence.methods.begin(), sequence.methods.end());
+  sequence.shapes.assign(shapes.begin(), shapes.end());
+  Random random(mixed(seed, static_cast<std::uint64_t>(number)), kOrder);
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    if (curve_counts[s] < 2 || curve_counts[s] % 2 != 0)
+      throw Error(ErrorKind::invalid_input, "study sequence: shape " + std::to_string(shapes[s]) +
+                                                " has " + std::to_string(curve_counts[s]) +
+                                                " target curves; an even number is needed");
+    std::vector<Index> curves(at(curve_counts[s]));
+    std::iota(curves.begin(), curves.end(), 0);
+    shuffle(curves, random);
+    sequence.strokes.push_back(with_repeats(curves));
+  }
+  return sequence;
+}
+
+stroke::Intention recalled(const spatial::Target& target, const stroke::Intention& curve,
+                           std::span<const Index> keypoints, double recalled_error,
+                           std::uint64_t seed) {
+  require_faces(target, curve);
+  const Index count = static_cast<Index>(curve.points.size());
+  std::vector<Index> stations(keypoints.begin(), keypoints.end());
+  std::erase_if(stations, [count](Index k) { return k < 0 || k >= count; });
+  stations.push_back(0);
+  stations.push_back(std::max(0, count - 1));
+  std::sort(stations.begin(), stations.end());
+  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+  Random random(seed, kRecall);
+  stroke::Intention result = curve;
+  for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
+    const Index begin = stations[k], end = stations[k + 1];
+    std::vector<double> way = {0.0};
+    for (Index i = begin; i < end; ++i)
+      way.push_back(
+          way.back() +
+          (target.position(curve.points[at(i + 1)]) - target.position(curve.points[at(i)])).norm());
+    const double total = way.back();
+    // Half a wave and a whole one, which the mean square of sines makes 2.
+    const double error = recalled_error * total;
+    const double half = error * random.normal(), whole = error * random.normal();
+    if (!(total > 0)) continue;
+    for (Index i = begin + 1; i < end; ++i) {
+      const double t = std::numbers::pi * way[at(i - begin)] / total;
+      const Vec3 x = target.position(curve.points[at(i)]);
+      const Vec3 along =
+          target.position(curve.points[at(i + 1)]) - target.position(curve.points[at(i - 1)]);
+      const Vec3 side = target.normal(curve.points[at(i)]).cross(along);
+      if (!(side.norm() > 0)) continue;
+      const auto closest = target.closest_point(
+          x + (half * std::sin(t) + whole * std::sin(2 * t)) * side.normalized(), kInfinity,
+          curve.points[at(i)].face);
+      if (closest) result.points[at(i)] = closest->surface;
+    }
+  }
+  return result;
+}
+
+stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention& curve,
+                          std::span<const Index> keypoints, TaskKind task,
+                          const Similarity& model_to_world, const PopulationOptions& options,
+                          const Participant& person, Steering steering, std::uint64_t trial_number,
+                          const InkFunction& ink) {
+  require_faces(target, curve);
+  const std::uint64_t seed = mixed(person.seed, trial_number);
+  Random random(seed, kStroke);
+  SimulationOptions hand = person.hand;
+  const double longer = world_length(target, curve, model_to_world.scale) / options.usual_length_m;
+  double duration = options.duration_s * person.pace *
+                    std::exp(options.stroke_log_deviation * random.normal()) *
+                    std::pow(std::max(longer, 1e-3), options.length_exponent);
+  hand.mean_distance_m *= std::exp(options.stroke_log_deviation * random.normal());
+  if (steering == Steering::aims) {
+    hand.turned_correction = options.aiming_turned_correction;
+    hand.coordination = options.aiming_coordination;
+    hand.wrist_part = options.aiming_wrist;
+    hand.facing_rad = options.aiming_facing_rad;
+    hand.head_follow *= options.aiming_head;
+    hand.copy = HandCopy::automatic;
+  } else {
+    hand.wobble_rad *= options.moving_wobble;
+    hand.copy = HandCopy::translated;
+    duration *= options.moving_pace;
+  }
+  hand.head_follow = std::min(1.0, hand.head_follow);
+  if (task == TaskKind::re_creating) duration *= options.recalled_pace;
+  hand.least_duration_s = hand.most_duration_s = std::clamp(duration, 0.5, 60.0);
+  const stroke::Intention meant =
+      task == TaskKind::tracing
+          ? curve
+          : recalled(target, curve, keypoints, options.recalled_error, mixed(seed, 1));
+  stroke::Stroke stroke = simulate_closed_loop(target, meant, model_to_world, hand, seed, ink);
+  stroke.intended = curve;
+  return stroke;
+}
+
+}  // namespace mimicry::study
