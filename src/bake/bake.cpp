@@ -214,7 +214,7 @@ Embedding bake(const TriangleMesh& mesh, const BakeOptions& options, int threads
   Embedding out;
   out.dimension = options.dimension;
   out.mesh_vertex_count = mesh.vertex_count();
-  out.mesh_face_count = mesh.face_count();
+  out.faces.assign(mesh.faces().begin(), mesh.faces().end());
   out.mesh_hash = embedding::content_hash(mesh);
   out.diagonal = unit.diagonal;
   out.options = options;

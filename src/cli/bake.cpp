@@ -1,19 +1,16 @@
-#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include <mimicry/bake/bake.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/embedding_file.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/embedding_input.h"
 #include "cli/mesh_input.h"
 
 namespace mimicry::cli {
@@ -22,11 +19,8 @@ namespace {
 struct Arguments {
   std::string mesh;
   std::string out;
-  bake::BakeOptions options;
-  int threads = 0;
+  BakeSettings bake;
 };
-
-volatile std::sig_atomic_t interrupted = 0;
 
 // Time of each stage, from the progress reports: the library itself looks at no clock.
 class StageTimes {
@@ -51,28 +45,21 @@ class StageTimes {
 void run(const Arguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   (void)make_target(named, false);
-  std::signal(SIGINT, [](int) { interrupted = 1; });
   StageTimes times;
-  const int threads = args.threads > 0
-                          ? args.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  embedding::Embedding embedding;
-  {
-    ProgressLine line("baking");
-    embedding = bake::bake(named.mesh, args.options, threads, [&](const Progress& progress) {
-      times.enter(progress.stage);
-      line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
-      return interrupted == 0;
-    });
-  }
+  const Baked baked = bake_mesh(named.mesh, args.bake, [&](const Progress& progress) {
+    times.enter(progress.stage);
+    return true;
+  });
+  const embedding::Embedding& embedding = baked.embedding;
   files::write_file_atomically(args.out, io::write_embedding(embedding));
-  const bake::BakeQuality& q = embedding.quality;
+  const embedding::BakeQuality& q = embedding.quality;
   std::printf("%s: %d vertices, %zu tetrahedra, %s\n", args.out.c_str(), embedding.vertex_count(),
               embedding.tets.size(),
               q.is_lattice ? "a lattice (the mesh does not stand in it)" : "the mesh stands in it");
   std::printf("  stress %s, |d/D - 1| median %s, 99 %% %s, slivers %s %%\n",
               fixed(q.stress, 4).c_str(), fixed(q.distortion[0], 4).c_str(),
               fixed(q.distortion[2], 4).c_str(), fixed(q.sliver_percent, 2).c_str());
+  if (baked.was_kept) std::printf("  from an earlier bake (--no-cache makes a new one)\n");
   times.print();
 }
 
@@ -83,17 +70,16 @@ void add_bake(CLI::App& app, int&) {
   auto args = std::make_shared<Arguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("-o,--out", args->out, "The .mimicry file to write")->required();
-  command->add_option("--threads", args->threads, "0: as many as the machine has")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_option("--dimension", args->options.dimension, "Of the embedding")
+  add_threads_option(*command, args->bake.threads);
+  add_cache_option(*command, args->bake);
+  command->add_option("--dimension", args->bake.options.dimension, "Of the embedding")
       ->check(CLI::Range(3, 8))
       ->capture_default_str();
-  command->add_option("--samples", args->options.samples, "At most")
+  command->add_option("--samples", args->bake.options.samples, "At most")
       ->check(CLI::Range(1, 20000))
       ->capture_default_str();
   command
-      ->add_option("--offset", args->options.offset,
+      ->add_option("--offset", args->bake.options.offset,
                    "Half the shell's thickness, part of the diagonal")
       ->check(number_between(1e-3, 0.5))
       ->capture_default_str();

@@ -2,47 +2,33 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
-#include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/embedding_file.h>
-
-#include "cli/console.h"
 
 namespace mimicry::cli {
 
 PreparedCanvas::PreparedCanvas(const spatial::Target& target,
                                std::span<const technique::TechniqueInfo* const> techniques,
-                               const std::string& embedding_file) {
+                               const std::string& embedding_file, const BakeSettings& settings) {
   canvas_.target = &target;
   if (std::none_of(techniques.begin(), techniques.end(),
                    [](const auto* info) { return info->needs_bake; }))
     return;
-  canvas_.projector = &projector_of(target, embedding_file);
+  canvas_.projector = &projector_of(target, embedding_file, settings);
 }
 
 const embedding::SmoothProjector& PreparedCanvas::projector_of(const spatial::Target& target,
-                                                               const std::string& embedding_file) {
-  if (!embedding_file.empty()) {
-    const std::string name = std::filesystem::path(embedding_file).filename().string();
-    try {
-      return projector_.emplace(io::read_embedding(files::read_file(embedding_file), name), target);
-    } catch (const Error& error) {
-      const std::string message = error.what();
-      throw Error(error.kind(), message.starts_with(name) ? message : name + ": " + message);
-    }
+                                                               const std::string& embedding_file,
+                                                               const BakeSettings& settings) {
+  if (embedding_file.empty())
+    return projector_.emplace(bake_mesh(target.mesh(), settings).embedding, target);
+  embedding::Embedding embedding = load_embedding(embedding_file);
+  try {
+    return projector_.emplace(std::move(embedding), target);
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                std::filesystem::path(embedding_file).filename().string() + ": " + error.what());
   }
-  ProgressLine line("baking");
-  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return projector_.emplace(
-      bake::bake(target.mesh(), {}, threads,
-                 [&](const Progress& progress) {
-                   line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
-                   return true;
-                 }),
-      target);
 }
 
 }  // namespace mimicry::cli

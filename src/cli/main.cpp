@@ -34,6 +34,9 @@ int main(int argc, char** argv) {
   add_report(app, status);
   add_geodesic(app, status);
   add_bake(app, status);
+  add_import_embedding(app, status);
+  add_quality(app, status);
+  add_scp(app, status);
   add_compare(app, status);
   add_keypoints(app, status);
   add_measure(app, status);

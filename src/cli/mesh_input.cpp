@@ -12,6 +12,7 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "cli/commands.h"
+#include "cli/embedding_input.h"
 
 namespace mimicry::cli {
 namespace {
@@ -52,7 +53,9 @@ CLI::Validator number_between(double lowest, double highest) {
 NamedMesh load_mesh(const std::string& spec) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);
   const std::string name = std::filesystem::path(spec).filename().string();
-  TriangleMesh mesh = io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name);
+  TriangleMesh mesh = is_embedding_file(spec)
+                          ? mesh_of(load_embedding(spec))
+                          : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name);
   const double size = diagonal(mesh);
   return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
 }

@@ -11,7 +11,8 @@ namespace mimicry::cli {
 
 /// How meshes are named on the command line, for help texts.
 inline constexpr const char* kMeshHelp =
-    "a mesh file (.obj .ply .stl .off .glb .gltf) or a built-in shape (shape:NAME[:RESOLUTION])";
+    "a mesh file (.obj .ply .stl .off .glb .gltf; .mimicry: the mesh that was baked) or a built-in "
+    "shape (shape:NAME[:RESOLUTION])";
 
 struct NamedMesh {
   std::string name;  ///< the file's name without folders, or the shape's

@@ -39,6 +39,7 @@ struct Arguments {
   std::vector<std::string> formats = {"json", "obj", "csv", "glb", "ply"};
   std::string misses = "connect";
   std::string embedding;  // file; empty: baked when needed
+  BakeSettings bake;
   double minimum_motion_mm = 0.0;
   double tube_radius = 0.0;  // model units; 0: a fraction of the diagonal
   bool allow_nonmanifold = false;
@@ -277,7 +278,7 @@ void run(const Arguments& args) {
       args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
-  const PreparedCanvas prepared(target, chosen, args.embedding);
+  const PreparedCanvas prepared(target, chosen, args.embedding, args.bake);
 
   io::CurveSet set{named.name, {}};
   std::vector<Row> rows;
@@ -324,8 +325,10 @@ void add_project(CLI::App& app, int&) {
       ->delimiter(',');
   command->add_option("--option", args->options,
                       "A technique's option, NAME=NUMBER[,NUMBER,NUMBER]");
-  command->add_option("--embedding", args->embedding,
-                      "The mesh's bake (mimicry bake); without it one is made when needed");
+  command->add_option(
+      "--embedding", args->embedding,
+      "The mesh's bake (mimicry bake); without it one is made when needed, and kept");
+  add_cache_option(*command, args->bake);
   command->add_option("-o,--out", args->out, "Folder for the curve files")->capture_default_str();
   command->add_option("--formats", args->formats, "Which files")
       ->delimiter(',')

@@ -12,6 +12,7 @@
 namespace mimicry::embedding {
 namespace {
 
+constexpr double kLargest = 1e30;  // of coordinates: squares and products stay in range
 // Sixfold volume over the cube of the longest edge.
 constexpr double kFlat = 6e-3;
 // Barycentric coordinates nearer to 0 than this are those of a point on a face.
@@ -28,22 +29,22 @@ std::size_t at(Index i) {
 // Before anything is built on it.
 Embedding checked(Embedding e, const spatial::Target& target) {
   const TriangleMesh& mesh = target.mesh();
-  if (e.mesh_vertex_count != mesh.vertex_count() || e.mesh_face_count != mesh.face_count() ||
+  if (e.mesh_vertex_count != mesh.vertex_count() || e.face_count() != mesh.face_count() ||
       e.mesh_hash != content_hash(mesh))
     refuse("it is of another mesh (" + std::to_string(e.mesh_vertex_count) + " vertices, " +
-           std::to_string(e.mesh_face_count) + " faces) than the target (" +
+           std::to_string(e.face_count()) + " faces) than the target (" +
            std::to_string(mesh.vertex_count()) + " vertices, " + std::to_string(mesh.face_count()) +
            " faces)");
   if (e.dimension < 1 || e.vertex_count() < e.mesh_vertex_count ||
       e.values.size() != e.positions.size() * static_cast<std::size_t>(e.dimension))
     refuse("its sizes contradict each other");
   for (std::size_t v = 0; v < e.positions.size(); ++v)
-    if (!is_finite(e.positions[v]))
-      refuse("vertex " + std::to_string(v) + " of the shell is not finite");
+    if (!is_finite(e.positions[v]) || e.positions[v].cwiseAbs().maxCoeff() > kLargest)
+      refuse("vertex " + std::to_string(v) + " of the shell is not finite or beyond 1e30");
   for (std::size_t i = 0; i < e.values.size(); ++i)
-    if (!std::isfinite(e.values[i]))
+    if (!std::isfinite(e.values[i]) || std::abs(e.values[i]) > kLargest)
       refuse("the value of vertex " + std::to_string(i / static_cast<std::size_t>(e.dimension)) +
-             " is not finite");
+             " is not finite or beyond 1e30");
   if (e.overlapping_tets < 0 || static_cast<std::size_t>(e.overlapping_tets) > e.tets.size())
     refuse("its sizes contradict each other");
   for (std::size_t t = 0; t < e.tets.size(); ++t)

@@ -121,6 +121,7 @@ CsvTable read_csv(std::string_view bytes, std::string_view name) {
                    "has " + std::to_string(fields.size()) + " fields, the heading has " +
                        std::to_string(table.columns.size()));
     table.rows.push_back(std::move(fields));
+    table.lines.push_back(at);
   }
   if (table.columns.empty())
     throw Error(ErrorKind::invalid_input,

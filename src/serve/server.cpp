@@ -218,7 +218,7 @@ struct Server::State {
       std::string known = files::read_file(kept.string());
       try {
         const embedding::Embedding e = io::read_embedding(known, kept.string());
-        if (e.mesh_vertex_count == mesh.vertex_count() && e.mesh_face_count == mesh.face_count())
+        if (e.mesh_vertex_count == mesh.vertex_count() && e.face_count() == mesh.face_count())
           return known;
       } catch (const Error&) {  // it is made again
       }

@@ -9,6 +9,8 @@ import tempfile
 import unittest
 
 PROGRAM, STUDY = sys.argv[1:3]
+CACHE = tempfile.TemporaryDirectory()  # of bakes: the user's own stays out of it
+os.environ["MIMICRY_CACHE"] = CACHE.name
 
 
 def run(*args, expect=0):

@@ -17,7 +17,7 @@ Embedding example() {
   Embedding e;
   e.dimension = 5;
   e.mesh_vertex_count = 7;
-  e.mesh_face_count = 9;
+  e.faces = {{0, 1, 2}, {6, 5, 4}, {2, 3, 0}};
   e.mesh_hash = 0xfedcba9876543210U;
   e.diagonal = 1.75;
   for (int v = 0; v < 11; ++v) e.positions.emplace_back(random.normal(), 1e-300, -0.0);
@@ -53,7 +53,7 @@ TEST(EmbeddingFile, KeepsEveryNumber) {
   const Embedding back = read_embedding(bytes, "x");
   EXPECT_EQ(back.dimension, e.dimension);
   EXPECT_EQ(back.mesh_vertex_count, e.mesh_vertex_count);
-  EXPECT_EQ(back.mesh_face_count, e.mesh_face_count);
+  EXPECT_EQ(back.faces, e.faces);
   EXPECT_EQ(back.mesh_hash, e.mesh_hash);
   EXPECT_EQ(back.diagonal, e.diagonal);
   EXPECT_EQ(back.positions, e.positions);
@@ -76,7 +76,7 @@ TEST(EmbeddingFile, KeepsEveryNumber) {
 
 TEST(EmbeddingFile, SectionsAreAligned) {
   const std::string bytes = write_embedding(example());
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 5; ++i)
     EXPECT_EQ(static_cast<unsigned char>(bytes[32 + 24 * i + 8]) % 64, 0);
 }
 
@@ -97,8 +97,8 @@ TEST(EmbeddingFile, CutOrForeignOrLaterFilesAreRefusedByName) {
   refusal(bytes + "x", "bytes");
   refusal("solid cube\nfacet normal 0 0 1", "does not begin");
   std::string later = bytes;
-  later[8] = 2;
-  EXPECT_EQ(refusal(later, "version 2"), ErrorKind::unsupported);
+  later[8] = 3;
+  EXPECT_EQ(refusal(later, "version 3"), ErrorKind::unsupported);
 }
 
 TEST(EmbeddingFile, ContradictionsAreRefused) {
@@ -113,6 +113,9 @@ TEST(EmbeddingFile, ContradictionsAreRefused) {
   refusal(write_embedding(e), "tetrahedron 4");
   e.tets[4][1] = -1;
   refusal(write_embedding(e), "vertex -1");
+  e = example();
+  e.faces[1][2] = 7;  // of the shell, not of the mesh
+  refusal(write_embedding(e), "face 1");
 }
 
 }  // namespace

@@ -42,16 +42,16 @@ struct BakeQuality {
   double sliver_percent = 0.0;
 };
 
-/// A baked target: a shell of tetrahedra around its mesh, and a position in R^dimension for each
-/// vertex of both. Plain data; nothing here is checked.
+/// A baked target: its mesh, a shell of tetrahedra around it, and a position in R^dimension for
+/// each vertex of both. Plain data; nothing here is checked.
 struct Embedding {
   std::int32_t dimension = 8;
   /// The first mesh_vertex_count vertices are those of the mesh, in its order.
   Index mesh_vertex_count = 0;
-  Index mesh_face_count = 0;
   std::uint64_t mesh_hash = 0;  ///< content_hash of the mesh
   double diagonal = 0.0;        ///< of the mesh's bounding box
 
+  std::vector<Face> faces;                 ///< #F by 3, of the mesh
   std::vector<Vec3> positions;             ///< #V by 3, in the mesh's frame and units
   std::vector<std::array<Index, 4>> tets;  ///< #T by 4, positively oriented in `positions`
   /// The last so many tetrahedra may stand where others of them stand: between two parts of the
@@ -65,7 +65,12 @@ struct Embedding {
   BakeQuality quality;
 
   Index vertex_count() const { return static_cast<Index>(positions.size()); }
+  Index face_count() const { return static_cast<Index>(faces.size()); }
 };
+
+/// The mesh that was baked. Throws Error(invalid_input) where a face refers to a vertex that the
+/// mesh does not have.
+TriangleMesh mesh_of(const Embedding& embedding);
 
 /// A 64-bit hash of vertices and faces, bit by bit (a negative zero is another number): the same
 /// on every machine. Not cryptographic.

@@ -28,6 +28,7 @@ std::string json_line(std::span<const std::string> columns, std::span<const Cell
 struct CsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> lines;  ///< of the file, from 1, where each row begins
 
   /// Where the column of this name stands.
   std::optional<std::size_t> find(std::string_view column) const;

@@ -1,3 +1,4 @@
+#include <cassert>
 #include <cstring>
 
 #include <mimicry/embedding/embedding.h>
@@ -22,6 +23,11 @@ std::uint64_t word(double x) {
 }
 
 }  // namespace
+
+TriangleMesh mesh_of(const Embedding& e) {
+  assert(e.mesh_vertex_count >= 0 && e.mesh_vertex_count <= e.vertex_count());
+  return {{e.positions.begin(), e.positions.begin() + e.mesh_vertex_count}, e.faces};
+}
 
 std::uint64_t content_hash(const TriangleMesh& mesh) {
   std::uint64_t state = mix(static_cast<std::uint64_t>(mesh.vertex_count()),

@@ -1,0 +1,82 @@
+// What it takes until smooth closest points can be asked for, from a file on the disk:
+//   load_bench FILE.mimicry ...
+// Each step on its own, the least and the median of nine, on one thread, the file in the page
+// cache.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mimicry/embedding/smooth_projector.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/embedding_file.h>
+
+namespace {
+
+using namespace mimicry;
+
+class Timer {
+ public:
+  explicit Timer(std::vector<double>& ms) : ms_(ms) {}
+  ~Timer() {
+    ms_.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+            .count());
+  }
+
+ private:
+  std::vector<double>& ms_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void print(const char* step, std::vector<double> ms) {
+  std::sort(ms.begin(), ms.end());
+  std::printf("  %-34s least %7.1f  median %7.1f ms\n", step, ms.front(), ms[ms.size() / 2]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string file = argv[i];
+    std::vector<double> read, parse, target, projector, all;
+    std::size_t bytes = 0, memory = 0;
+    for (int pass = 0; pass < 9; ++pass) {
+      std::optional<std::string> content;
+      std::optional<embedding::Embedding> e;
+      std::optional<spatial::Target> t;
+      std::optional<embedding::SmoothProjector> p;
+      {
+        const Timer timer(read);
+        content = files::read_file(file);
+      }
+      bytes = content->size();
+      {
+        const Timer timer(parse);
+        e = io::read_embedding(*content, file);
+      }
+      content.reset();
+      {
+        const Timer timer(target);
+        t.emplace(mesh_of(*e), spatial::TargetOptions{.allow_nonmanifold = true});
+      }
+      {
+        const Timer timer(projector);
+        p.emplace(std::move(*e), *t);
+      }
+      memory = p->memory_bytes();
+      all.push_back(read.back() + parse.back() + projector.back());
+    }
+    std::printf("%s: %.1f MB, the projector holds %.1f MB\n", file.c_str(), 1e-6 * double(bytes),
+                1e-6 * double(memory));
+    print("read", read);
+    print("checksum, check and copy", parse);
+    print("projector", projector);
+    print("the load: these three", all);
+    print("target (the mesh's own)", target);
+  }
+  return 0;
+}

@@ -1,0 +1,71 @@
+#include "cli/embedding_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include <mimicry/bake/bake.h>
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+#include <mimicry/io/embedding_file.h>
+
+#include "cli/bake_cache.h"
+#include "cli/console.h"
+#include "cli/interrupt.h"
+
+namespace mimicry::cli {
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+}
+
+void add_cache_option(CLI::App& command, BakeSettings& settings) {
+  command.add_flag("!--no-cache", settings.use_cache,
+                   "Bake anew and keep nothing (bakes are kept in MIMICRY_CACHE, "
+                   "XDG_CACHE_HOME/mimicry or ~/.cache/mimicry)");
+}
+
+int thread_count(int threads) {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings,
+                const ProgressCallback& progress) {
+  const BakeCache cache = settings.use_cache ? BakeCache::of_user() : BakeCache();
+  if (auto kept = cache.find(mesh, settings.options)) return {std::move(*kept), true};
+  const InterruptWatch watch;
+  ProgressLine line("baking");
+  Baked baked;
+  baked.embedding =
+      bake::bake(mesh, settings.options, thread_count(settings.threads), [&](const Progress& now) {
+        line.update(static_cast<std::size_t>(100 * now.fraction), 100);
+        return (!progress || progress(now)) && !watch.interrupted();
+      });
+  cache.keep(baked.embedding);
+  return baked;
+}
+
+embedding::Embedding load_embedding(const std::string& file) {
+  return io::read_embedding(files::read_file(file),
+                            std::filesystem::path(file).filename().string());
+}
+
+bool is_embedding_file(const std::string& spec) {
+  return std::filesystem::path(spec).extension() == ".mimicry";
+}
+
+LoadedProjector::LoadedProjector(embedding::Embedding embedding, const std::string& name) {
+  try {
+    // What was baked was accepted as it is.
+    target_ = std::make_unique<spatial::Target>(mesh_of(embedding),
+                                                spatial::TargetOptions{.allow_nonmanifold = true});
+    projector_ = std::make_unique<embedding::SmoothProjector>(std::move(embedding), *target_);
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + ": " + error.what());
+  }
+}
+
+}  // namespace mimicry::cli

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mimicry/files/file.h>
+#include <mimicry/io/points.h>
+
+#include "cli/commands.h"
+#include "cli/embedding_input.h"
+#include "cli/interrupt.h"
+
+namespace mimicry::cli {
+namespace {
+
+constexpr std::size_t kChunk = 1024;
+
+struct Arguments {
+  std::string embedding, points, out;
+  bool replace_failed = false;
+  int threads = 0;
+};
+
+void run(const Arguments& args, int& status) {
+  const std::string points_name = std::filesystem::path(args.points).filename().string();
+  const io::PointRows rows = io::read_points_csv(files::read_file(args.points), points_name);
+  const LoadedProjector projector(load_embedding(args.embedding),
+                                  std::filesystem::path(args.embedding).filename().string());
+
+  std::vector<std::optional<embedding::SmoothPoint>> answers(rows.points.size());
+  Executor executor(thread_count(args.threads));
+  executor.for_chunks(answers.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
+    embedding::ScpHint hint;
+    for (std::size_t i = begin; i < end; ++i)
+      answers[i] =
+          projector->project(rows.points[i], {.replace_failed = args.replace_failed}, &hint);
+  });
+  files::write_file_atomically(args.out, io::write_smooth_points_csv(answers));
+
+  std::size_t smooth = 0, undefined = 0, first = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i] && undefined++ == 0) first = i;
+    if (answers[i] && answers[i]->label == embedding::ScpLabel::smooth) ++smooth;
+  }
+  std::printf("%s: %zu points, %zu smooth, %zu closest points instead\n", args.out.c_str(),
+              answers.size(), smooth, answers.size() - smooth - undefined);
+  if (undefined == 0) return;
+  std::fprintf(
+      stderr,
+      "mimicry: %s: %zu points are not finite or beyond 1e60 (first: line %zu); their rows "
+      "say not-finite\n",
+      points_name.c_str(), undefined, rows.lines[first]);
+  status = kPartly;
+}
+
+}  // namespace
+
+void add_scp(CLI::App& app, int& status) {
+  auto* command = app.add_subcommand("scp", "Smooth closest points of many points");
+  auto args = std::make_shared<Arguments>();
+  command->add_option("--embedding", args->embedding, "The target's bake (mimicry bake)")
+      ->required();
+  command->add_option("--points", args->points, "A CSV file with columns x, y, z, in mesh units")
+      ->required();
+  command
+      ->add_option("-o,--out", args->out,
+                   "The CSV file to write: face,b0,b1,b2,x,y,z,label, a row a point")
+      ->required();
+  command->add_flag(
+      "--replace-failed", args->replace_failed,
+      "The closest point where the smooth one is a twentieth of the diagonal farther");
+  add_threads_option(*command, args->threads);
+  command->callback([args, &status] { run(*args, status); });
+}
+
+}  // namespace mimicry::cli
