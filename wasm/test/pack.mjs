@@ -15,7 +15,7 @@ try {
   writeFileSync(join(work, 'package.json'), '{"private": true, "type": "module"}');
   execFileSync('npm', ['install', '--offline', '--no-audit', '--no-fund', '--silent', `./${archive}`], quiet);
   const installed = readdirSync(join(work, 'node_modules', 'mimicry'));
-  assert.deepEqual(installed.sort(), ['README.md', 'dist', 'package.json']);
+  assert.deepEqual(installed.sort(), ['LICENSE', 'README.md', 'THIRD_PARTY.md', 'dist', 'package.json']);
 
   const program = /```js\n([^]*?)```/.exec(readFileSync(join(root, 'README.md'), 'utf8'))[1];
   writeFileSync(join(work, 'readme.mjs'), program);
