@@ -1,5 +1,5 @@
-import { Autosave, indexedDbShelf } from './drawing/autosave';
-import { colorBytes, isDrawing, kDrawingEnding, keptCurves, readDrawing, readDrawingModel, writeDrawing } from './drawing/drawing_file';
+import { Autosave, indexedDbShelf, type PutAway } from './drawing/autosave';
+import { colorBytes, drawingContent, isDrawing, kDrawingEnding, keptCurves, readDrawing, readDrawingModel, writeDrawing } from './drawing/drawing_file';
 import type { Core, CurveFormat } from './engine/core';
 import { loadModel, warmLoader } from './engine/loader';
 import { shapeModel } from './engine/model';
@@ -27,6 +27,7 @@ export class App implements Actions {
   readonly ui: Interface;
   readonly autosave: Autosave;
   private saving = false; // not before the last drawing is back
+  private away: PutAway | null = null;
   private loading: AbortController | null = null;
   private baking: AbortController | null = null;
   private readonly picker = document.createElement('input');
@@ -101,27 +102,28 @@ export class App implements Actions {
   /** The drawing of last time, or the first model. */
   async start(): Promise<void> {
     const shape = new URLSearchParams(location.search).get('shape');
-    let restored = false;
+    let restored = false, failed = false;
     try {
+      this.setAway(await this.autosave.lastPutAway());
       const last = shape ? null : await this.autosave.lastModel();
       if (last) {
         restored = await this.restore(last.model.source, last.embedding);
       }
     } catch (error) {
-      this.ui.messages.problem(`The drawing of last time could not be opened (${sentence(error)}); the studio starts afresh.`);
+      failed = true;
+      this.ui.messages.problem(`The drawing of last time could not be opened (${sentence(error)}). Reload the page to try again; what you draw now takes its place.`);
     }
     if (!restored) this.show(shapeModel(this.core, this.core.shapes.some((s) => s.name === shape) ? shape! : kFirstShape));
     this.saving = true;
-    if (!restored) this.save();
+    if (!restored && !failed) this.save();
     warmLoader();
     void this.offerXr();
   }
 
   private async restore(source: ModelSource, embedding: Uint8Array | null): Promise<boolean> {
-    const model = 'shape' in source ? shapeModel(this.core, source.shape) : await this.load(source.file, source.bytes);
-    if (!model) return false;
-    this.show(model, false);
-    if (embedding) this.studio.addEmbedding(embedding, 'the prepared model');
+    const model = await this.modelOf(source);
+    this.show(model, embedding === null);
+    if (embedding) this.attempt(() => this.studio.addEmbedding(embedding, 'the prepared model'));
     this.studio.restore(await this.autosave.drawing(this.studio.target!, model.source));
     return true;
   }
@@ -141,9 +143,21 @@ export class App implements Actions {
 
   // Models and files --------------------------------------------------------------------------
 
+  private async modelOf(source: ModelSource): Promise<LoadedModel> {
+    return 'shape' in source ? shapeModel(this.core, source.shape) : this.load(source.file, source.bytes);
+  }
+
   private show(model: LoadedModel, fetchEmbedding = true): void {
     this.baking?.abort();
+    this.studio.endStroke();
+    const { model: before, history } = this.studio.state.now;
+    const away = before && history.drawing.length > 0 ? { source: before.source, content: drawingContent(this.core, this.studio.target!, history.drawing) } : null;
     this.studio.open(model);
+    if (away) {
+      this.setAway(away);
+      this.autosave.putAway(away);
+      this.ui.messages.note(`The drawing on ${sourceTitle(away.source)} is put away; “Previous drawing” in the menu brings it back.`);
+    }
     this.view.frame(this.studio.state.now.modelToWorld);
     if (fetchEmbedding && 'shape' in model.source) void this.fetchEmbedding(model.source.shape);
   }
@@ -179,6 +193,29 @@ export class App implements Actions {
       this.show(shapeModel(this.core, name));
       this.ui.messages.say(`${shapeTitle(name)} is open.`);
     });
+  }
+
+  /** The drawing that is put away; the open one takes its place. */
+  openPrevious(): void {
+    const { away } = this;
+    if (!away) return;
+    void (async () => {
+      try {
+        this.show(await this.modelOf(away.source));
+        this.studio.restore(readDrawing(this.core, this.studio.target!, away.content, 'the previous drawing'));
+        if (this.away !== away) return;
+        this.setAway(null);
+        this.autosave.putAway(null);
+        this.save();
+      } catch (error) {
+        if (!(error instanceof DOMException && error.name === 'AbortError')) this.ui.messages.problem(sentence(error));
+      }
+    })();
+  }
+
+  private setAway(away: PutAway | null): void {
+    this.away = away;
+    this.ui.showPrevious(away && sourceTitle(away.source));
   }
 
   private files(root: HTMLElement): void {
@@ -243,8 +280,7 @@ export class App implements Actions {
       this.ui.messages.note('The model is prepared: all techniques work on it.');
     } else if (isDrawing(bytes)) {
       const { source, rest } = readDrawingModel(bytes, file.name);
-      const model = 'shape' in source ? shapeModel(this.core, source.shape) : await this.load(source.file, source.bytes);
-      this.show(model);
+      this.show(await this.modelOf(source));
       this.studio.restore(readDrawing(this.core, this.studio.target!, rest, file.name));
     } else if (/\.json$/i.test(file.name)) {
       const strokes = this.core.readStrokes(bytes, file.name);
@@ -368,6 +404,10 @@ export class App implements Actions {
 
 function sentence(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
+}
+
+function sourceTitle(source: ModelSource): string {
+  return 'shape' in source ? shapeTitle(source.shape) : source.file;
 }
 
 function plural(n: number, noun: string): string {

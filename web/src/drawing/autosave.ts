@@ -1,6 +1,7 @@
 import type { Curve, Target } from '../engine/core';
 import type { ModelSource } from '../studio';
 import type { Drawing, DrawnCurve, InkStyle } from './document';
+import type { DrawingContent } from './drawing_file';
 import type { Range } from './kept';
 import type { MirrorAxis } from './symmetry';
 
@@ -25,6 +26,12 @@ export interface StoredModel {
   source: ModelSource;
 }
 
+/** A drawing that another model took the place of. */
+export interface PutAway {
+  source: ModelSource;
+  content: DrawingContent;
+}
+
 /**
  * Keeps the drawing in the browser's storage, a stroke at a time: what was saved before is not
  * written again. Saves follow each other; of several that wait only the last is done.
@@ -36,6 +43,7 @@ export class Autosave {
   private waiting: (() => Promise<void>) | null = null;
   private running: Promise<void> | null = null;
   private serial = Date.now();
+  private away: PutAway | null | undefined; // to be written with the next save
 
   /** problem: a sentence when saving fails, null when it works again. */
   constructor(private readonly shelf: Shelf, private readonly problem: (sentence: string | null) => void) {}
@@ -56,11 +64,23 @@ export class Autosave {
         put.set('model', model);
         remove.push('embedding');
       }
+      const { away } = this;
+      if (away !== undefined) put.set('away', away);
       await this.shelf.write(put, remove);
+      if (this.away === away) this.away = undefined;
       this.model = model.source;
       for (const key of put.keys()) if (key.includes(':')) this.saved.add(key);
       for (const key of remove) this.saved.delete(key);
     });
+  }
+
+  /** Keeps a drawing beside the one that is open; written with its next save, so that none is lost between. */
+  putAway(away: PutAway | null): void {
+    this.away = away;
+  }
+
+  async lastPutAway(): Promise<PutAway | null> {
+    return ((await this.shelf.read('away')) as PutAway | null | undefined) ?? null;
   }
 
   saveEmbedding(bytes: Uint8Array): void {

@@ -13,13 +13,17 @@ interface Entry {
   kept: readonly Range[];
 }
 
-interface DrawingFile {
-  format: 'mimicry-drawing';
-  version: 1;
-  model: { name: string; shape?: string; mesh?: string }; // mesh: base64 of the file
+/** A drawing without its model. */
+export interface DrawingContent {
   entries: Entry[];
   strokes: unknown; // mimicry-strokes
   curves: unknown; // mimicry-curves
+}
+
+interface DrawingFile extends DrawingContent {
+  format: 'mimicry-drawing';
+  version: 1;
+  model: { name: string; shape?: string; mesh?: string }; // mesh: base64 of the file
 }
 
 export const kDrawingEnding = '.mimicry-drawing';
@@ -32,11 +36,18 @@ export function writeDrawing(core: Core, target: Target, source: ModelSource, dr
   const file: DrawingFile = {
     format: 'mimicry-drawing', version: 1,
     model: 'shape' in source ? { name: target.name, shape: source.shape } : { name: source.file, mesh: toBase64(source.bytes) },
+    ...drawingContent(core, target, drawing),
+  };
+  return bytes.encode(JSON.stringify(file));
+}
+
+/** The drawing as plain data that outlives the target. */
+export function drawingContent(core: Core, target: Target, drawing: Drawing): DrawingContent {
+  return {
     entries: drawing.map(({ id, mirror, style, kept }) => ({ id, mirror, style, kept })),
     strokes: JSON.parse(text.decode(core.writeStrokes(drawing.map((drawn) => drawn.stroke)))),
     curves: JSON.parse(text.decode(target.writeCurves(drawing.map((drawn) => drawn.curve), 'json', new Uint8Array(3 * drawing.length), 1))),
   };
-  return bytes.encode(JSON.stringify(file));
 }
 
 /** Whether a file's content is a drawing. */
@@ -59,7 +70,7 @@ export function readDrawingModel(content: Uint8Array, name: string): { source: M
 }
 
 /** The drawing on the target, which is the file's model. */
-export function readDrawing(core: Core, target: Target, file: DrawingFile, name: string): Drawing {
+export function readDrawing(core: Core, target: Target, file: DrawingContent, name: string): Drawing {
   const strokes = core.readStrokes(bytes.encode(JSON.stringify(file.strokes)), name);
   const curves = target.readCurves(bytes.encode(JSON.stringify(file.curves)), name);
   return assemble(file.entries, strokes, curves, name);

@@ -79,7 +79,8 @@ export class XrInput {
   /** Throws an Error with a sentence where the headset cannot be entered. */
   async enter(mode: 'immersive-vr' | 'immersive-ar'): Promise<void> {
     const xr = navigator.xr;
-    if (!xr) throw new Error('This browser has no WebXR. Open this page in the headset’s own browser.');
+    if (!isSecureContext) throw new Error('Browsers let only pages from HTTPS into a headset. Start `mimicry serve --lan` and open the address that it prints.');
+    if (!xr) throw new Error('This browser has no WebXR, with which pages reach headsets. Open this page in the headset’s own browser (`mimicry serve --lan` prints its address), or in Chrome or Edge with a headset connected.');
     let session: XRSession;
     try {
       session = await xr.requestSession(mode, { requiredFeatures: ['local-floor'], optionalFeatures: ['bounded-floor', 'hand-tracking'] });
@@ -87,7 +88,9 @@ export class XrInput {
       const denied = error instanceof DOMException && (error.name === 'NotAllowedError' || error.name === 'SecurityError');
       throw new Error(denied
         ? 'The headset was not entered because permission was denied. Allow virtual reality for this page in the browser’s site settings, and press the button again.'
-        : 'The headset did not start. Check that it is connected and awake, and press the button again.');
+        : error instanceof DOMException && error.name === 'NotSupportedError'
+          ? 'The browser found no headset. Connect one and wake it, or open this page in the headset’s own browser (`mimicry serve --lan` prints its address).'
+          : 'The headset did not start. Check that it is connected and awake, and press the button again.');
     }
     this.studio.endStroke();
     this.session = session;
@@ -102,7 +105,12 @@ export class XrInput {
     session.addEventListener('selectend', (event) => this.select(event.inputSource, false));
     this.stage.enterXr(mode === 'immersive-ar');
     this.hands.visible = true;
-    await this.stage.renderer.xr.setSession(session);
+    try {
+      await this.stage.renderer.xr.setSession(session);
+    } catch {
+      await session.end().catch(() => undefined);
+      throw new Error('The headset’s picture could not be set up. Reload the page and press the button again.');
+    }
   }
 
   async exit(): Promise<void> {

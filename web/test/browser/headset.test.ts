@@ -240,6 +240,22 @@ describe('a headset', () => {
   });
 });
 
+describe('without a headset', () => {
+  it('the menu has the button, and it says why and what to do', async () => {
+    const { page: bare, context } = await lab.open();
+    const press = async (): Promise<void> => {
+      await bare.getByRole('button', { name: 'Save, export and more' }).click();
+      await bare.getByRole('button', { name: 'Draw in a headset' }).click();
+    };
+    await press();
+    await expect.poll(() => messages(bare)).toEqual([expect.stringMatching(/found no headset\. Connect one|no WebXR.*Open this page/)]);
+    await bare.evaluate(() => Object.defineProperty(navigator, 'xr', { value: undefined, configurable: true }));
+    await press();
+    await expect.poll(async () => (await messages(bare)).at(-1)).toMatch(/no WebXR.*Open this page/);
+    await context.close();
+  });
+});
+
 describe('replay', () => {
   it.skipIf(!existsSync(kNative))('by the native program gives the same curves', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'studio-'));

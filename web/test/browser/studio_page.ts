@@ -63,10 +63,10 @@ export async function reset(page: Page): Promise<void> {
   await page.evaluate(async (defaults) => {
     for (const sheet of document.querySelectorAll<HTMLElement>('[popover]')) sheet.hidePopover();
     document.querySelector<HTMLDialogElement>('dialog[open]')?.close();
-    document.querySelectorAll('.message').forEach((message) => message.remove());
     window.studio.studio.set(defaults);
     window.studio.openShape('hand');
     await window.studio.autosave.settled();
+    document.querySelectorAll('.message').forEach((message) => message.remove());
   }, kDefaults);
 }
 
