@@ -12,11 +12,13 @@
 #include <mimicry/files/file.h>
 #include <mimicry/io/study_recording.h>
 #include <mimicry/session/stroke_session.h>
+#include <mimicry/study/keypoints.h>
 #include <mimicry/study/participants.h>
 
 #include "cli/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/embedding_input.h"
 #include "cli/study_shapes.h"
 
 namespace mimicry::cli {
@@ -82,6 +84,10 @@ study::RecordedStroke draw(const technique::Canvas& canvas, const StudyShape& sh
                            const study::Participant& person, std::uint64_t slot) {
   const spatial::Target& target = *canvas.target;
   const study::TargetCurve& curve = shape.shape->curves[static_cast<std::size_t>(trial.curve)];
+  const std::vector<Index> keypoints =
+      curve.keypoints.empty()
+          ? study::keypoints(target.mesh(), target.half_edges(), curve.points, shape.shape->scale)
+          : curve.keypoints;
   const stroke::Intention intended{shape.shape->name + "-" + std::to_string(trial.curve), false,
                                    curve.points};
   const Similarity placed = placement(target, shape.shape->scale, false);
@@ -90,9 +96,8 @@ study::RecordedStroke draw(const technique::Canvas& canvas, const StudyShape& sh
   session::StrokeSession session(canvas, *method.technique, options);
   session.begin(placed);
   const stroke::Stroke stroke = study::draw_trial(
-      target, intended, shape.keypoints[static_cast<std::size_t>(trial.curve)], trial.task, placed,
-      study.population, person, steering_of(*method.technique), slot,
-      [&](const stroke::Frame& frame) -> std::optional<Vec3> {
+      target, intended, keypoints, trial.task, placed, study.population, person,
+      steering_of(*method.technique), slot, [&](const stroke::Frame& frame) -> std::optional<Vec3> {
         if (session.add(frame) != session::FrameStatus::inked) return std::nullopt;
         return placed.point(session.curve().points.back().position);
       });

@@ -14,6 +14,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/embedding_input.h"
 #include "cli/mesh_input.h"
 #include "cli/replay_jobs.h"
 #include "cli/row_journal.h"

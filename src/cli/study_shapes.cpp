@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
@@ -17,12 +16,7 @@ std::string mesh_spec(const std::string& folder, const std::string& shape) {
   std::error_code none;
   if (fs::is_regular_file(fs::path(folder) / shape, none))
     return (fs::path(folder) / shape).string();
-  for (const char* ending : {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}) {
-    const fs::path file = fs::path(folder) / (shape + ending);
-    if (fs::is_regular_file(file, none)) return file.string();
-  }
-  throw Error(ErrorKind::io, folder + ": has no mesh of the shape " + shape + " (" + shape +
-                                 ".obj, .ply, .stl, .off, .glb or .gltf)");
+  return find_mesh_file(folder, shape);
 }
 
 void add_study_shape_options(CLI::App& command, StudyShapeOptions& options) {
@@ -47,9 +41,7 @@ StudyShapes::StudyShapes(const StudyShapeOptions& options) : folder_(options.fol
     if (!options.names.empty() &&
         std::find(options.names.begin(), options.names.end(), shape.name) == options.names.end())
       continue;
-    StudyShape entry{number, &shape, {}};
-    for (const study::TargetCurve& curve : shape.curves) entry.keypoints.push_back(curve.keypoints);
-    list_.push_back(std::move(entry));
+    list_.push_back({number, &shape});
   }
   std::sort(list_.begin(), list_.end(),
             [](const StudyShape& a, const StudyShape& b) { return a.number < b.number; });
@@ -80,11 +72,6 @@ Similarity placement(const spatial::Target& target, double metres_per_unit, bool
   placed.translation =
       Vec3(0.0, 1.2, 0.0) - metres_per_unit * (placed.rotation * target.bounding_box().center());
   return placed;
-}
-
-int thread_count(int wanted) {
-  if (wanted > 0) return wanted;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace mimicry::cli

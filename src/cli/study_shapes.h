@@ -28,7 +28,6 @@ void add_study_shape_options(CLI::App& command, StudyShapeOptions& options);
 struct StudyShape {
   Index number = kNone;  ///< the study's (study/protocol.h); others count on from these
   const study::TargetShape* shape = nullptr;
-  std::vector<std::vector<Index>> keypoints;  ///< of each curve
 };
 
 /// The shapes of a file of target curves, with the meshes to load when they are needed.
@@ -57,8 +56,5 @@ std::string mesh_spec(const std::string& folder, const std::string& shape);
 
 /// Upright, its middle 1.2 m above the floor.
 Similarity placement(const spatial::Target& target, double metres_per_unit, bool z_up);
-
-/// 0: as many as the machine has.
-int thread_count(int wanted);
 
 }  // namespace mimicry::cli
