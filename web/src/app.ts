@@ -84,6 +84,9 @@ export class App implements Actions {
         this.stage.invalidate();
       }
       if (this.saving && (now.history.drawing !== before.history.drawing || now.model !== before.model)) this.save();
+      if (before.drawing && !now.drawing && now.settings.mirror && now.history.drawing.length === before.history.drawing.length + 1) {
+        this.ui.messages.note('The mirrored copy does not meet the model there.');
+      }
       if (now.history.drawing.length > 0 && !now.settings.hintSeen) this.studio.set({ hintSeen: true });
     });
     // What is being drawn when the page goes away is kept.
@@ -280,6 +283,9 @@ export class App implements Actions {
       this.ui.messages.note('The model is prepared: all techniques work on it.');
     } else if (isDrawing(bytes)) {
       const { source, rest } = readDrawingModel(bytes, file.name);
+      if ('shape' in source && !this.core.shapes.some((s) => s.name === source.shape)) {
+        throw new Error(`${file.name}: a drawing on “${source.shape}”, a model that this page does not have; reload it to get a newer page`);
+      }
       this.show(await this.modelOf(source));
       this.studio.restore(readDrawing(this.core, this.studio.target!, rest, file.name));
     } else if (/\.json$/i.test(file.name)) {

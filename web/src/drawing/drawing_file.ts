@@ -64,9 +64,15 @@ export function readDrawingModel(content: Uint8Array, name: string): { source: M
   }
   if (file.format !== 'mimicry-drawing') throw new Error(`${name}: not a mimicry drawing`);
   if (file.version !== 1) throw new Error(`${name}: a drawing of version ${String(file.version)}; this page reads version 1, reload it to get a newer one`);
+  const damaged = new Error(`${name}: the file is cut off or damaged; use another copy`);
+  if (!file.strokes || !file.curves || !Array.isArray(file.entries)) throw damaged;
   if (file.model?.shape) return { source: { shape: file.model.shape }, rest: file };
-  if (!file.model?.mesh) throw new Error(`${name}: the drawing does not say which model it is on`);
-  return { source: { file: file.model.name, bytes: fromBase64(file.model.mesh) }, rest: file };
+  if (!file.model?.mesh) throw new Error(`${name}: the drawing does not say which model it is on; use another copy`);
+  try {
+    return { source: { file: String(file.model.name), bytes: fromBase64(file.model.mesh) }, rest: file };
+  } catch {
+    throw damaged;
+  }
 }
 
 /** The drawing on the target, which is the file's model. */

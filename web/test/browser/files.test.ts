@@ -77,6 +77,7 @@ describe('models', () => {
       { name: 'photo.jpg', bytes: 'x', says: /photo\.jpg: not a kind of file that the studio opens/ },
       { name: 'other.json', bytes: '{"format": "other"}', says: /other\.json/ },
       { name: 'wrong.mimicry', bytes: 'MIMICRY?', says: /wrong\.mimicry/ },
+      { name: 'new.mimicry-drawing', bytes: '{"format":"mimicry-drawing","version":1,"model":{"shape":"teapot"},"entries":[],"strokes":{},"curves":{}}', says: /new\.mimicry-drawing: a drawing on “teapot”/ },
       { name: 'half.mimicry-drawing', bytes: '{"format":"mimicry-drawing","version":1,', says: /half\.mimicry-drawing: the file is cut off/ },
     ];
     for (const { name, bytes, says } of bad) {

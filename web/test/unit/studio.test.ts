@@ -219,7 +219,10 @@ describe('drawing files', () => {
     const text = (s: string): Uint8Array => new TextEncoder().encode(s);
     expect(() => readDrawingModel(text('{"format":'), 'x')).toThrow(/x: the file is cut off/);
     expect(() => readDrawingModel(text('{"format":"mimicry-drawing","version":9}'), 'x')).toThrow(/version 9/);
-    expect(() => readDrawingModel(text('{"format":"mimicry-drawing","version":1}'), 'x')).toThrow(/which model/);
+    const rest = '"format":"mimicry-drawing","version":1,"entries":[],"strokes":{},"curves":{}';
+    expect(() => readDrawingModel(text('{"format":"mimicry-drawing","version":1}'), 'x')).toThrow(/x: the file is cut off/);
+    expect(() => readDrawingModel(text(`{${rest}}`), 'x')).toThrow(/which model/);
+    expect(() => readDrawingModel(text(`{${rest},"model":{"name":"a.obj","mesh":"%"}}`), 'x')).toThrow(/x: the file is cut off/);
   });
 });
 
