@@ -15,6 +15,9 @@ export const kLooks: Record<'light' | 'dark', Look> = {
   dark: { background: '#17191d', floor: '#23262c', clay: '#a9a7a3' },
 };
 
+/** Below this part of the height, the width says how far away the camera stands. */
+const kNarrow = 0.7;
+
 /** Why there is no picture: a sentence for people. */
 export class NoGraphics extends Error {}
 
@@ -144,9 +147,15 @@ export class Stage {
     return 1 - (this.covered.top + this.covered.bottom) / this.height;
   }
 
+  private narrow = kNarrow;
+
   private fitCamera(): void {
     const width = this.split ? this.width / 2 : this.width;
     this.camera.aspect = this.aspect;
+    // What is seen of the model stays in sight where the picture becomes narrow (a turned phone, two halves).
+    const narrow = Math.min(kNarrow, this.aspect);
+    this.rig.zoom(this.narrow / narrow);
+    this.narrow = narrow;
     this.camera.setViewOffset(width, this.height, 0, (this.covered.bottom - this.covered.top) / 2, width, this.height);
     this.invalidate();
   }
