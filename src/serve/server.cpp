@@ -300,9 +300,9 @@ Server::Server(const ServeOptions& options) : state_(std::make_unique<State>()) 
   s.studio = fs::canonical(options.studio, trouble);
   if (trouble || !fs::is_regular_file(s.studio / "index.html", trouble))
     throw Error(ErrorKind::io, options.studio +
-                                   ": the studio is not there; build it with `npm --prefix web ci "
-                                   "&& npm --prefix web run build`, or name its folder with "
-                                   "--studio");
+                                   ": the studio is not there; build it with `cmake --preset wasm "
+                                   "&& cmake --build --preset wasm --target web_page` (or ./run), "
+                                   "or name its folder with --studio");
   if (options.lan || !options.certificate.empty()) {
     std::vector<std::string> names = machine_addresses();
     names.insert(names.begin(), "127.0.0.1");

@@ -182,7 +182,7 @@ class Serve(unittest.TestCase):
             return done.returncode, done.stderr
         code, message = fails("--studio", self.work)
         self.assertEqual(code, 4)
-        self.assertIn("npm --prefix web", message)
+        self.assertIn("--target web_page", message)
         with Served(self.work) as server:
             code, message = fails("--studio", str(server.studio), "--port", str(server.port))
             self.assertEqual(code, 4)

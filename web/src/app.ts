@@ -9,7 +9,7 @@ import { PointerInput } from './input/pointer_input';
 import { XrInput } from './input/xr_input';
 import { Stage } from './scene/stage';
 import { ThreeView } from './scene/three_view';
-import { readSettings, writeSettings } from './settings';
+import { readSettings, settingsStorage, writeSettings } from './settings';
 import { Studio, type LoadedModel, type ModelSource } from './studio';
 import type { Actions } from './ui/actions';
 import { buildInterface, shapeTitle, type Interface } from './ui/interface';
@@ -30,12 +30,13 @@ export class App implements Actions {
   private away: PutAway | null = null;
   private loading: AbortController | null = null;
   private baking: AbortController | null = null;
+  private readonly settings = settingsStorage();
   private readonly picker = document.createElement('input');
 
   constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, private readonly options: { antialias: boolean; embeddings: boolean }) {
     this.stage = new Stage(canvas, options.antialias);
     this.view = new ThreeView(this.stage);
-    this.studio = new Studio(core, this.view, readSettings(localStorage));
+    this.studio = new Studio(core, this.view, readSettings(this.settings));
     this.pointer = new PointerInput(canvas, this.stage, this.view, this.studio);
     this.xr = new XrInput(this.stage, this.view, this.studio);
     this.ui = buildInterface(root, this.studio, this);
@@ -80,7 +81,7 @@ export class App implements Actions {
         this.view.showMirror(now.settings.mirror);
         this.stage.split = now.settings.compare !== null;
         this.cover();
-        writeSettings(localStorage, now.settings);
+        writeSettings(this.settings, now.settings);
         this.stage.invalidate();
       }
       if (this.saving && (now.history.drawing !== before.history.drawing || now.model !== before.model)) this.save();

@@ -47,6 +47,15 @@ export const kDefaults: Settings = {
 
 const kKey = 'mimicry-studio-settings';
 
+/** Where settings are kept; where the browser forbids it, nowhere. */
+export function settingsStorage(): Pick<Storage, 'getItem' | 'setItem'> {
+  try {
+    return localStorage;
+  } catch {
+    return { getItem: () => null, setItem: () => undefined };
+  }
+}
+
 /** What was chosen last time; defaults for what is missing or of another kind. */
 export function readSettings(storage: Pick<Storage, 'getItem'>): Settings {
   let stored: unknown = null;

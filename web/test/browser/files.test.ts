@@ -314,6 +314,19 @@ describe('a browser without', () => {
     await context.close();
   });
 
+  it('leave to store anything draws all the same, and says that nothing is kept', async () => {
+    const { page: strict, context } = await lab.open({
+      prepare: async (fresh) => void (await fresh.addInitScript(() => {
+        for (const name of ['localStorage', 'indexedDB']) Object.defineProperty(window, name, { get() { throw new DOMException('denied', 'SecurityError'); } });
+      })),
+    });
+    await strict.evaluate(() => document.querySelectorAll('.message').forEach((message) => message.remove()));
+    await stroke(strict, kAcross);
+    expect((await summary(strict)).curves).toHaveLength(1);
+    await expect.poll(() => messages(strict)).toEqual([expect.stringContaining('does not let this page keep the drawing')]);
+    await context.close();
+  });
+
   it('a picture for a moment keeps the drawing, and gets the picture back', async () => {
     await stroke(page, kAcross);
     await page.evaluate(async () => {
