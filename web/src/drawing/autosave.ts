@@ -10,6 +10,8 @@ export interface Shelf {
   read(key: string): Promise<unknown>;
   /** All or nothing. */
   write(put: ReadonlyMap<string, unknown>, remove: readonly string[]): Promise<void>;
+  /** Calls the listener when another page has written. */
+  onOthers?(listener: () => void): void;
 }
 
 interface StoredEntry {
@@ -34,7 +36,8 @@ export interface PutAway {
 
 /**
  * Keeps the drawing in the browser's storage, a stroke at a time: what was saved before is not
- * written again. Saves follow each other; of several that wait only the last is done.
+ * written again. Saves follow each other; of several that wait only the last is done. Where another
+ * page saved in between, all is written anew: the last one that saves is kept whole.
  */
 export class Autosave {
   private readonly saved = new Set<string>();
@@ -43,13 +46,24 @@ export class Autosave {
   private waiting: (() => Promise<void>) | null = null;
   private running: Promise<void> | null = null;
   private serial = Date.now();
+  private others = false; // another page saved since we did
   private away: PutAway | null | undefined; // to be written with the next save
 
   /** problem: a sentence when saving fails, null when it works again. */
-  constructor(private readonly shelf: Shelf, private readonly problem: (sentence: string | null) => void) {}
+  constructor(private readonly shelf: Shelf, private readonly problem: (sentence: string | null) => void) {
+    shelf.onOthers?.(() => (this.others = true));
+  }
 
   save(model: StoredModel, target: Target, drawing: Drawing): void {
     this.enqueue(async () => {
+      let theirs: StoredEntry[] = [];
+      if (this.others) {
+        // Read only then: a save when the page goes away has no time for it.
+        theirs = ((await this.shelf.read('entries')) ?? []) as StoredEntry[];
+        this.others = false;
+        this.saved.clear();
+        this.model = null;
+      }
       const put = new Map<string, unknown>();
       const entries = drawing.map((drawn): StoredEntry => {
         const strokeKey = `stroke:${drawn.id}`, curveKey = this.curveKey(drawn);
@@ -58,7 +72,7 @@ export class Autosave {
         return { id: drawn.id, mirror: drawn.mirror, style: drawn.style, kept: drawn.kept, strokeKey, curveKey };
       });
       const needed = new Set(entries.flatMap((e) => [e.strokeKey, e.curveKey]));
-      const remove = [...this.saved].filter((key) => !needed.has(key));
+      const remove = [...this.saved, ...theirs.flatMap((e) => [e.strokeKey, e.curveKey])].filter((key) => !needed.has(key));
       put.set('entries', entries);
       if (model.source !== this.model) {
         put.set('model', model);
@@ -170,7 +184,11 @@ export function indexedDbShelf(name = 'mimicry-studio'): Shelf {
     opened.catch(() => (opened = null));
     return opened;
   };
+  const channel = 'BroadcastChannel' in window ? new BroadcastChannel(name) : null;
   return {
+    onOthers(listener) {
+      channel?.addEventListener('message', listener);
+    },
     async read(key) {
       const db = await open();
       return new Promise((resolve, reject) => {
@@ -186,7 +204,10 @@ export function indexedDbShelf(name = 'mimicry-studio'): Shelf {
         const store = transaction.objectStore('shelf');
         for (const key of remove) store.delete(key);
         for (const [key, value] of put) store.put(value, key);
-        transaction.oncomplete = () => resolve();
+        transaction.oncomplete = () => {
+          channel?.postMessage(null);
+          resolve();
+        };
         transaction.onabort = () => reject(transaction.error);
       });
     },

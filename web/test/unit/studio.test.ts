@@ -266,6 +266,25 @@ describe('autosave', () => {
     expect(drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }))).toEqual(studio.state.now.history.drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] })));
   });
 
+  it('keeps the drawing of the page that saved last whole, where two are open', async () => {
+    const shelf = memory(), told: (() => void)[] = [];
+    const page = (): Autosave => new Autosave({ ...shelf, onOthers: (listener) => void told.push(listener) }, () => undefined);
+    const first = page(), second = page();
+    draw();
+    const { model, history } = studio.state.now;
+    first.save(model!, studio.target!, history.drawing);
+    await first.settled();
+    await second.drawing(studio.target!, model!.source);
+    second.save({ name: 'other', source: { shape: 'torus' } }, studio.target!, []);
+    await second.settled();
+    expect([...shelf.items.keys()].filter((key) => key.includes(':'))).toHaveLength(0);
+    told[0]!();
+    first.save(model!, studio.target!, history.drawing);
+    await first.settled();
+    expect(shelf.items.get('model')).toMatchObject({ source: model!.source });
+    expect(await page().drawing(studio.target!, model!.source)).toHaveLength(1);
+  });
+
   it('says when the storage is full, and goes on', async () => {
     const said: (string | null)[] = [];
     let full = true;
