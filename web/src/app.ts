@@ -9,7 +9,7 @@ import { PointerInput } from './input/pointer_input';
 import { XrInput } from './input/xr_input';
 import { Stage } from './scene/stage';
 import { ThreeView } from './scene/three_view';
-import { readSettings, settingsStorage, writeSettings } from './settings';
+import { kDefaults, readSettings, settingsStorage, writeSettings } from './settings';
 import { Studio, type LoadedModel, type ModelSource } from './studio';
 import type { Actions } from './ui/actions';
 import { buildInterface, shapeTitle, type Interface } from './ui/interface';
@@ -126,8 +126,18 @@ export class App implements Actions {
 
   private async restore(source: ModelSource, embedding: Uint8Array | null): Promise<boolean> {
     const model = await this.modelOf(source);
-    this.show(model, embedding === null);
-    if (embedding) this.attempt(() => this.studio.addEmbedding(embedding, 'the prepared model'));
+    // A technique that needs the bake comes back with it.
+    const { technique } = this.studio.settings;
+    const resume = (): void => {
+      if (this.studio.offers(technique) && this.studio.settings.technique === kDefaults.technique) this.studio.set({ technique });
+    };
+    this.show(model, false);
+    if (embedding) {
+      this.attempt(() => this.studio.addEmbedding(embedding, 'the prepared model'));
+      resume();
+    } else if ('shape' in source) {
+      void this.fetchEmbedding(source.shape).then(resume);
+    }
     this.studio.restore(await this.autosave.drawing(this.studio.target!, model.source));
     return true;
   }

@@ -266,7 +266,7 @@ describe('preparing', () => {
     await settled();
     await page.reload();
     await page.waitForSelector('html[data-ready]');
-    expect(await page.evaluate(() => window.studio.studio.state.now.hasEmbedding)).toBe(true);
+    expect(await page.evaluate(() => [window.studio.studio.state.now.hasEmbedding, window.studio.studio.settings.technique])).toEqual([true, 'mimicry']);
     expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
   });
 });
@@ -299,6 +299,10 @@ describe('a built-in model', () => {
     await fresh.keyboard.press('Escape');
     await stroke(fresh, [[320, 280], [375, 285]]);
     expect((await summary(fresh)).curves.map((c) => c.technique)).toEqual(['mimicry-live', 'mimicry']);
+    await fresh.evaluate(() => window.studio.autosave.settled());
+    await fresh.reload();
+    await fresh.waitForSelector('html[data-ready]');
+    await fresh.waitForFunction(() => window.studio.studio.settings.technique === 'mimicry');
     expect(errors).toEqual([]);
     await context.close();
   });
