@@ -80,14 +80,14 @@ TEST(Participants, PeopleDifferAndStayThemselves) {
   EXPECT_NEAR(std::sqrt(squares / 399), 1, 3 / 28.0);
 }
 
-struct Scene {
+struct ClosedLoopScene {
   spatial::Target target{make_shape("torus", {.resolution = 24})};
   stroke::Intention curve = intended_curves("torus", target)[1];
   Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), find_shape("torus")->metres_per_unit};
 };
 
 TEST(Participants, RecalledCurvesMeetTheirKeypoints) {
-  const Scene s;
+  const ClosedLoopScene s;
   const auto count = static_cast<Index>(s.curve.points.size());
   const std::vector<Index> keypoints = {0, count / 3, count / 2, count - 1};
   const stroke::Intention meant = recalled(s.target, s.curve, keypoints, 0.02, 5);
@@ -107,7 +107,7 @@ TEST(Participants, RecalledCurvesMeetTheirKeypoints) {
 }
 
 TEST(Participants, TrialsAreSeededAndDifferByTechniqueAndTask) {
-  const Scene s;
+  const ClosedLoopScene s;
   const PopulationOptions options;
   const Participant person = participant(options, 1, 0);
   const auto draw = [&](TaskKind task, Steering steering, std::uint64_t number) {
