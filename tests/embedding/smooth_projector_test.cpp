@@ -315,16 +315,20 @@ TEST(Spline, OnAPlaneIsThePlanesSpline) {
   EXPECT_LT((joint.position - (at(1) + 4.0 * at(2) + at(3)) / 6.0).norm(), 0.02);
 }
 
+// Controls about a fifth of the shape apart.
+std::vector<SurfacePoint> winding_controls(const spatial::Target& target) {
+  std::vector<SurfacePoint> controls;
+  for (int i = 0; i < 7; ++i) {
+    const double a = 0.35 * i;
+    controls.push_back(
+        target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))->surface);
+  }
+  return controls;
+}
+
 TEST(Spline, IsSmoothOnTheSurface) {
   for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
-    // Controls about a fifth of the shape apart.
-    std::vector<SurfacePoint> controls;
-    for (int i = 0; i < 7; ++i) {
-      const double a = 0.35 * i;
-      controls.push_back(
-          shape->target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))
-              ->surface);
-    }
+    const std::vector<SurfacePoint> controls = winding_controls(shape->target);
     double coarse = 0.0, fine = 0.0;  // largest angle between consecutive steps
     for (const Index points : {200, 800}) {
       const auto curve = b_spline_curve(shape->projector, controls, points);
@@ -377,13 +381,7 @@ Turns turns_of(const TriangleMesh& mesh, const std::vector<SmoothPoint>& curve) 
 
 TEST(Spline, TurnsSmoothlyWithinFacesAndLittleAcrossEdges) {
   for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
-    std::vector<SurfacePoint> controls;
-    for (int i = 0; i < 7; ++i) {
-      const double a = 0.35 * i;
-      controls.push_back(
-          shape->target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))
-              ->surface);
-    }
+    const std::vector<SurfacePoint> controls = winding_controls(shape->target);
     const auto turns = [&](Index points) {
       return turns_of(shape->target.mesh(), b_spline_curve(shape->projector, controls, points));
     };
