@@ -216,6 +216,18 @@ class Report(unittest.TestCase):
         self.assertIn("nothing to compare", page)
         self.assertEqual(data_of(page)["scatter"], [])
 
+    def test_points_have_a_colour_where_rows_have_no_task(self):
+        with open(self.rows, "w", encoding="utf-8") as file:
+            print("participant,stroke,method,shape,index,K_E,D_ep_mm", file=file)
+            for i in range(8):
+                for m, method in enumerate(("spraycan", "mimicry")):
+                    print("strokes.json", i, method, "cube", i, 100 + i * (m + 1), 5 + i, sep=",",
+                          file=file)
+        data = data_of(self.report("--gallery", "0")[1])
+        points = data["scatter"][0]["plots"][0]["points"]
+        self.assertEqual(len(points), 8)
+        self.assertLessEqual({p["task"] for p in points}, set(data["tasks"]))
+
     def test_pictures_of_strokes(self):
         run("simulate", "shape:cube", "-o", os.path.join(self.folder, "strokes.json"))
         strokes = json.loads(read(os.path.join(self.folder, "strokes.json")))["strokes"]

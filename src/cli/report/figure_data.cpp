@@ -34,7 +34,8 @@ Json to_json(const ScatterPlot& plot) {
   for (const ScatterPoint& point : plot.points)
     points.push_back({{"x", rounded(point.x)},
                       {"y", rounded(point.y)},
-                      {"task", point.stroke->task},
+                      // What summary.tasks calls strokes of no task: the colours go by it.
+                      {"task", point.stroke->task.empty() ? "all" : point.stroke->task},
                       {"stroke", point.stroke->name()}});
   Json line;
   if (plot.line)
