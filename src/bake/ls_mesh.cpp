@@ -2,11 +2,13 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include <mimicry/bake/ls_mesh.h>
 
 #include "bake/block_pcg.h"
+#include "bake/flat_tets.h"
 #include "bake/morton.h"
 
 namespace mimicry::bake {
@@ -16,35 +18,15 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-// Elements (tetrahedra or triangles) around each vertex.
-template <class Element>
-struct Incidence {
-  Incidence(std::span<const Element> elements, std::size_t vertices) : start(vertices + 1, 0) {
-    for (const Element& e : elements)
-      for (const Index v : e) ++start[at(v) + 1];
-    for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
-    element.resize(at(start.back()));
-    std::vector<Index> fill(start.begin(), start.end() - 1);
-    for (std::size_t t = 0; t < elements.size(); ++t)
-      for (const Index v : elements[t]) element[at(fill[at(v)]++)] = static_cast<Index>(t);
-  }
-  std::vector<Index> start, element;
-};
-
 // Stiffness of the element's corner `k` against its other corners, and its share of the mass; false
 // where the element is left out. weights[j] is the integral of the product of the gradients of the
 // hat functions of k and j.
 bool stiffness(std::span<const Vec3> positions, const Tet& t, std::size_t k,
                std::array<double, 4>& weights, double& mass) {
-  const Vec3& a = positions[at(t[0])];
-  const Vec3& b = positions[at(t[1])];
-  const Vec3& c = positions[at(t[2])];
-  const Vec3& d = positions[at(t[3])];
-  if (is_flat(a, b, c, d)) return false;
-  const double volume = (b - a).cross(c - a).dot(d - a) / 6.0;
-  // Gradient of a corner's hat function: the opposite face's area vector over three volumes.
-  const std::array<Vec3, 4> area = {(d - b).cross(c - b), (c - a).cross(d - a),
-                                    (d - a).cross(b - a), (b - a).cross(c - a)};
+  const Vec3 &a = positions[at(t[0])], &d = positions[at(t[3])];
+  if (is_flat(a, positions[at(t[1])], positions[at(t[2])], d)) return false;
+  const std::array<Vec3, 4> area = area_vectors(positions, t);
+  const double volume = area[3].dot(d - a) / 6.0;
   for (std::size_t j = 0; j < 4; ++j) weights[j] = area[k].dot(area[j]) / (36.0 * volume);
   mass = volume / 4.0;
   return true;
@@ -101,6 +83,10 @@ class RowSum {
       sum_[at(s.unknown)] += weight;
     }
   }
+  void clear() {
+    for (const Index u : columns_) sum_[at(u)] = 0.0;
+    constant_.setZero();
+  }
   std::vector<Index>& columns() { return columns_; }
   double sum(Index unknown) const { return sum_[at(unknown)]; }
   const Eigen::RowVectorXd& constant() const { return constant_; }
@@ -113,19 +99,46 @@ class RowSum {
   Index stamp_ = kNone;
 };
 
-// The rows M^-1/2 L x of vertices `order[i]`, then the soft constraints.
+// What flat elements borrow: triangles nothing.
+struct NothingBorrowed {
+  explicit NothingBorrowed(const auto&...) {}
+};
 template <class Element>
-void add_vertex_row(const LsMeshInput& input, std::span<const Element> elements,
-                    const Incidence<Element>& around, const std::vector<Source>& sources, Index v,
-                    RowSum& row, double& scale) {
+using Borrowed =
+    std::conditional_t<std::is_same_v<Element, Tet>, BorrowedGradients, NothingBorrowed>;
+
+// The elements as rows of M^-1/2 L are made of them.
+template <class Element>
+struct Elements {
+  std::span<const Element> all;
+  Incidence<Element> around;
+  Borrowed<Element> borrowed;
+
+  Elements(std::span<const Element> elements, std::span<const Vec3> positions)
+      : all(elements), around(elements, positions.size()), borrowed(positions, elements, around) {}
+};
+
+// The row of vertex v in M^-1/2 L x, but for the factor `scale`.
+template <class Element>
+void add_vertex_row(const LsMeshInput& input, const Elements<Element>& elements,
+                    const std::vector<Source>& sources, Index v, RowSum& row, double& scale) {
   double mass = 0.0;
   std::array<double, 4> weights{};
+  const Incidence<Element>& around = elements.around;
   const auto begin = at(around.start[at(v)]), end = at(around.start[at(v) + 1]);
   for (std::size_t i = begin; i < end; ++i) {
-    const Element& e = elements[at(around.element[i])];
+    const Index number = around.element[i];
+    const Element& e = elements.all[at(number)];
     const auto k = static_cast<std::size_t>(std::find(e.begin(), e.end(), v) - e.begin());
     double share = 0.0;
-    if (!stiffness(input.positions, e, k, weights, share)) continue;
+    if (!stiffness(input.positions, e, k, weights, share)) {
+      if constexpr (std::is_same_v<Element, Tet>) {
+        const Vec3 flux = area_vectors(input.positions, e)[k] / 6.0;
+        for (const BorrowedGradients::Term& term : elements.borrowed.of(number))
+          row.add(input, sources, term.vertex, flux.dot(term.weight));
+      }
+      continue;
+    }
     mass += share;
     for (std::size_t j = 0; j < e.size(); ++j) row.add(input, sources, e[j], weights[j]);
   }
@@ -134,10 +147,11 @@ void add_vertex_row(const LsMeshInput& input, std::span<const Element> elements,
     return;
   }
   // Flat elements only: as if it stood among its neighbours in a regular mesh of their distance.
+  row.clear();
   double distance = 0.0;
   int count = 0;
   for (std::size_t i = begin; i < end; ++i)
-    for (const Index u : elements[at(around.element[i])])
+    for (const Index u : elements.all[at(around.element[i])])
       if (u != v) {
         distance += (input.positions[at(u)] - input.positions[at(v)]).norm();
         ++count;
@@ -193,7 +207,7 @@ LsMeshResult solve(const LsMeshInput& input, std::span<const Element> elements,
   const std::size_t row_count = vertices + input.soft.size();
   std::vector<Chunk> chunks((row_count + kChunk - 1) / kChunk);
   {
-    const Incidence<Element> around(elements, vertices);
+    const Elements<Element> parts(elements, input.positions);
     std::vector<RowSum> sums(static_cast<std::size_t>(executor.threads()),
                              RowSum(unknowns, dimension));
     executor.for_chunks(row_count, kChunk, [&](std::size_t begin, std::size_t end, int worker) {
@@ -204,7 +218,7 @@ LsMeshResult solve(const LsMeshInput& input, std::span<const Element> elements,
         double scale = 1.0;
         Eigen::RowVectorXd wished = Eigen::RowVectorXd::Zero(dimension);
         if (i < vertices) {
-          add_vertex_row<Element>(input, elements, around, sources, keys[i].second, row, scale);
+          add_vertex_row(input, parts, sources, keys[i].second, row, scale);
         } else {
           const SoftConstraint& soft = input.soft[i - vertices];
           for (std::size_t k = 0; k < 4; ++k)

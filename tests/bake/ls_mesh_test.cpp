@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -53,32 +55,25 @@ TEST(LsMesh, FlatnessByDefinition) {
 }
 
 TEST(LsMesh, LinearFunctionsInsideAFixedBoundaryLayer) {
-  // L x vanishes at inner vertices for linear x, and it is the only x with all of its energy there:
-  // with the outer layers fixed the inside must be linear, up to flat tetrahedra that are left out
-  // of L without harm to it when none touches the unknowns' rows.
-  std::vector<GridPoint> grid;
-  Cloud cloud;
-  std::mt19937 random(2);
-  std::uniform_int_distribution<std::int32_t> jitter(-30000, 30000);
-  constexpr std::int32_t kStep = 1 << 20;
-  for (std::int32_t x = 0; x < 9; ++x)
-    for (std::int32_t y = 0; y < 9; ++y)
-      for (std::int32_t z = 0; z < 9; ++z)
-        for (const std::int32_t half : {0, kStep / 2}) {
-          const GridPoint p = {(x + 1) * kStep + half + jitter(random),
-                               (y + 1) * kStep + half + jitter(random),
-                               (z + 1) * kStep + half + jitter(random)};
-          grid.push_back(p);
-          cloud.positions.push_back(Vec3(p[0], p[1], p[2]) * 0x1p-24);
-        }
-  Delaunay d;
-  d.insert(grid);
-  cloud.tets = d.tets();
+  // L x vanishes at inner vertices for linear x, flat tetrahedra around them or not, and it is the
+  // only x with all of its energy there: with the outer layers fixed the inside must be linear.
+  const Cloud cloud = random_cloud(3000, 2);
+  const Vec3 middle = Vec3::Constant(std::ldexp(1.0, kGridBits - 25));
   std::vector<Index> fixed;
-  for (std::size_t v = 0; v < cloud.positions.size(); ++v) {
-    const Vec3 p = cloud.positions[v] * 16.0 - Vec3::Constant(5.25);
-    if (p.cwiseAbs().maxCoeff() > 2.2) fixed.push_back(static_cast<Index>(v));
+  std::vector<bool> is_fixed(cloud.positions.size(), false);
+  for (std::size_t v = 0; v < cloud.positions.size(); ++v)
+    if ((cloud.positions[v] - middle).cwiseAbs().maxCoeff() > 0.5 * middle[0]) {
+      fixed.push_back(static_cast<Index>(v));
+      is_fixed[v] = true;
+    }
+  int flat_inside = 0;
+  for (const Tet& t : cloud.tets) {
+    const auto at = [&](std::size_t k) { return static_cast<std::size_t>(t[k]); };
+    const bool is_inside = !is_fixed[at(0)] && !is_fixed[at(1)] && !is_fixed[at(2)];
+    flat_inside += is_inside && is_flat(cloud.positions[at(0)], cloud.positions[at(1)],
+                                        cloud.positions[at(2)], cloud.positions[at(3)]);
   }
+  ASSERT_GT(flat_inside, 20);
   ASSERT_LT(fixed.size(), cloud.positions.size() - 80);
   Values values(static_cast<Eigen::Index>(fixed.size()), 8);
   for (std::size_t k = 0; k < fixed.size(); ++k)
@@ -87,13 +82,44 @@ TEST(LsMesh, LinearFunctionsInsideAFixedBoundaryLayer) {
   Executor executor;
   const LsMeshResult result = ls_mesh(
       {.positions = cloud.positions, .tets = cloud.tets, .fixed = fixed, .fixed_values = &values},
-      {.tolerance = 1e-10}, executor);
+      {.tolerance = 1e-12, .most_iterations = 2000}, executor);
   EXPECT_TRUE(result.converged);
+  double worst = 0.0;
   for (std::size_t v = 0; v < cloud.positions.size(); ++v)
-    EXPECT_LT((result.values.row(static_cast<Eigen::Index>(v)) - linear(cloud.positions[v], 8))
-                  .cwiseAbs()
-                  .maxCoeff(),
-              1e-7);
+    worst = std::max(
+        worst, (result.values.row(static_cast<Eigen::Index>(v)) - linear(cloud.positions[v], 8))
+                   .cwiseAbs()
+                   .maxCoeff());
+  // The solver leaves up to 2e-4 among tetrahedra this bad; with nothing borrowed it is 4e-2.
+  EXPECT_LT(worst, 1e-3);
+}
+
+struct Element {
+  Eigen::Matrix4d hats;  // column k: hat function of corner k
+  double volume;
+  bool flat;
+
+  Element(const Cloud& cloud, const Tet& t) {
+    std::array<Vec3, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = cloud.positions[static_cast<std::size_t>(t[k])];
+    Eigen::Matrix4d m;
+    for (int k = 0; k < 4; ++k) m.row(k) << 1.0, p[static_cast<std::size_t>(k)].transpose();
+    hats = m.inverse();
+    volume = std::abs(m.determinant()) / 6.0;
+    flat = is_flat(p[0], p[1], p[2], p[3]);
+  }
+  // 3 by dimension
+  Eigen::MatrixXd gradient(const Tet& t, const Values& x) const {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, x.cols());
+    for (int k = 0; k < 4; ++k)
+      sum += hats.col(k).tail<3>() * x.row(t[static_cast<std::size_t>(k)]);
+    return sum;
+  }
+};
+
+bool share_a_face(const Tet& s, const Tet& t) {
+  return std::count_if(s.begin(), s.end(),
+                       [&](Index v) { return std::find(t.begin(), t.end(), v) != t.end(); }) == 3;
 }
 
 // The energy by its definition, dense.
@@ -101,19 +127,24 @@ double energy(const Cloud& cloud, const Values& x) {
   Values image = Values::Zero(x.rows(), x.cols());
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(x.rows());
   for (const Tet& t : cloud.tets) {
-    std::array<Vec3, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = cloud.positions[static_cast<std::size_t>(t[k])];
-    if (is_flat(p[0], p[1], p[2], p[3])) continue;
-    Eigen::Matrix4d m;
-    for (int k = 0; k < 4; ++k) m.row(k) << 1.0, p[static_cast<std::size_t>(k)].transpose();
-    const Eigen::Matrix4d hats = m.inverse();  // column k: hat function of corner k
-    const double volume = std::abs(m.determinant()) / 6.0;
+    const Element e(cloud, t);
+    Eigen::MatrixXd gradient = e.gradient(t, x);
+    if (e.flat) {
+      gradient.setZero();
+      int lenders = 0;
+      for (const Tet& other : cloud.tets) {
+        if (!share_a_face(other, t)) continue;
+        const Element lender(cloud, other);
+        if (lender.flat) continue;
+        gradient += lender.gradient(other, x);
+        ++lenders;
+      }
+      gradient /= std::max(lenders, 1);
+    }
     for (int i = 0; i < 4; ++i) {
-      mass[t[static_cast<std::size_t>(i)]] += volume / 4.0;
-      for (int j = 0; j < 4; ++j)
-        image.row(t[static_cast<std::size_t>(i)]) +=
-            volume * hats.col(i).tail<3>().dot(hats.col(j).tail<3>()) *
-            x.row(t[static_cast<std::size_t>(j)]);
+      const Index v = t[static_cast<std::size_t>(i)];
+      if (!e.flat) mass[v] += e.volume / 4.0;
+      image.row(v) += e.volume * e.hats.col(i).tail<3>().transpose() * gradient;
     }
   }
   double sum = 0.0;

@@ -61,9 +61,10 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Least-squares mesh (Sorkine and Cohen-Or 2004): minimises x^T L M^-1 L x, L the cotangent
 /// Laplacian and M the lumped mass of the tetrahedra (of the triangles), with some vertices fixed
-/// and others tied. Flat tetrahedra are left out; a vertex of flat tetrahedra only is drawn to the
-/// mean of its neighbours. The same bits whatever the number of threads. About 70 neighbours a
-/// vertex: 1 kB a vertex and 2 microseconds a vertex and iteration.
+/// and others tied. In flat tetrahedra, which have no mass here, x has the gradient of those across
+/// their faces; a vertex of flat tetrahedra only is drawn to the mean of its neighbours. The same
+/// bits whatever the number of threads. About 70 neighbours a vertex: 1 kB a vertex and 2
+/// microseconds a vertex and iteration.
 LsMeshResult ls_mesh(const LsMeshInput& input, const LsMeshOptions& options, Executor& executor,
                      const ProgressCallback& progress = {});
 
