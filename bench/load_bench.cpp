@@ -42,23 +42,18 @@ void print(const char* step, std::vector<double> ms) {
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string file = argv[i];
-    std::vector<double> read, parse, target, projector, all;
+    std::vector<double> parse, target, projector, all;
     std::size_t bytes = 0, memory = 0;
     for (int pass = 0; pass < 9; ++pass) {
-      std::optional<std::string> content;
       std::optional<embedding::Embedding> e;
       std::optional<spatial::Target> t;
       std::optional<embedding::SmoothProjector> p;
       {
-        const Timer timer(read);
-        content = files::read_file(file);
-      }
-      bytes = content->size();
-      {
         const Timer timer(parse);
-        e = io::read_embedding(*content, file);
+        const files::MappedFile content(file);
+        bytes = content.bytes().size();
+        e = io::read_embedding(content.bytes(), file);
       }
-      content.reset();
       {
         const Timer timer(target);
         t.emplace(mesh_of(*e), spatial::TargetOptions{.allow_nonmanifold = true});
@@ -68,14 +63,13 @@ int main(int argc, char** argv) {
         p.emplace(std::move(*e), *t);
       }
       memory = p->memory_bytes();
-      all.push_back(read.back() + parse.back() + projector.back());
+      all.push_back(parse.back() + projector.back());
     }
     std::printf("%s: %.1f MB, the projector holds %.1f MB\n", file.c_str(), 1e-6 * double(bytes),
                 1e-6 * double(memory));
-    print("read", read);
-    print("checksum, check and copy", parse);
+    print("map, checksum, check and copy", parse);
     print("projector", projector);
-    print("the load: these three", all);
+    print("the load: these two", all);
     print("target (the mesh's own)", target);
   }
   return 0;

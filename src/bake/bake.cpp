@@ -279,6 +279,7 @@ Embedding bake(const TriangleMesh& mesh, const BakeOptions& options, int threads
   out.tets.reserve(shell.tets.size());
   for (const Tet& t : shell.tets)
     out.tets.push_back({renumber(t[0]), renumber(t[1]), renumber(t[2]), renumber(t[3])});
+  embedding::sort_for_search(out);
   report(progress, "done", 1.0);
   return out;
 }

@@ -92,7 +92,8 @@ std::optional<embedding::Embedding> BakeCache::find(const TriangleMesh& mesh,
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return std::nullopt;
   try {
-    embedding::Embedding e = io::read_embedding(files::read_file(path.string()), path.string());
+    embedding::Embedding e =
+        io::read_embedding(files::MappedFile(path.string()).bytes(), path.string());
     const bool is_it = e.mesh_hash == hash && e.mesh_vertex_count == mesh.vertex_count() &&
                        e.face_count() == mesh.face_count() &&
                        e.options.dimension == options.dimension &&

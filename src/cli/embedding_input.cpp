@@ -49,7 +49,7 @@ Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings,
 }
 
 embedding::Embedding load_embedding(const std::string& file) {
-  return io::read_embedding(files::read_file(file),
+  return io::read_embedding(files::MappedFile(file).bytes(),
                             std::filesystem::path(file).filename().string());
 }
 

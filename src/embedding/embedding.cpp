@@ -1,7 +1,10 @@
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include <mimicry/embedding/embedding.h>
+#include <mimicry/phong/phong_surface.h>
+#include <mimicry/spatial/leaf_order.h>
 
 namespace mimicry::embedding {
 namespace {
@@ -27,6 +30,22 @@ std::uint64_t word(double x) {
 TriangleMesh mesh_of(const Embedding& e) {
   assert(e.mesh_vertex_count >= 0 && e.mesh_vertex_count <= e.vertex_count());
   return {{e.positions.begin(), e.positions.begin() + e.mesh_vertex_count}, e.faces};
+}
+
+void sort_for_search(Embedding& e) {
+  std::vector<Vec3> centres;
+  centres.reserve(e.tets.size());
+  for (const std::array<Index, 4>& t : e.tets) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index v : t) sum += 0.25 * e.positions[static_cast<std::size_t>(v)];
+    centres.push_back(sum);
+  }
+  std::vector<std::array<Index, 4>> sorted;
+  sorted.reserve(e.tets.size());
+  for (const Index tet : spatial::leaf_order<3>(centres, e.overlapping_tets))
+    sorted.push_back(e.tets[static_cast<std::size_t>(tet)]);
+  e.tets = std::move(sorted);
+  e.face_order = phong::face_order(e.faces, e.values, e.dimension);
 }
 
 std::uint64_t content_hash(const TriangleMesh& mesh) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -13,13 +14,23 @@ namespace mimicry::embedding {
 namespace {
 
 constexpr double kLargest = 1e30;  // of coordinates: squares and products stay in range
-// Sixfold volume over the cube of the longest edge.
-constexpr double kFlat = 6e-3;
+// Sixfold volume over the cube of the longest edge, below which coordinates are rounding. The
+// shell's own are thicker (`bake::make_shell`).
+constexpr double kFlat = 1e-10;
 // Barycentric coordinates nearer to 0 than this are those of a point on a face.
 constexpr double kOnFace = 1e-9;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
+}
+
+// Finite, and of at most kLargest: told from the bits, since comparing what is not finite may trap.
+bool is_in_range(double x) {
+  const double size = std::abs(x);
+  std::uint64_t bits = 0, largest = 0;
+  std::memcpy(&bits, &size, sizeof bits);
+  std::memcpy(&largest, &kLargest, sizeof largest);
+  return bits <= largest;
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -38,20 +49,40 @@ Embedding checked(Embedding e, const spatial::Target& target) {
   if (e.dimension < 1 || e.vertex_count() < e.mesh_vertex_count ||
       e.values.size() != e.positions.size() * static_cast<std::size_t>(e.dimension))
     refuse("its sizes contradict each other");
-  for (std::size_t v = 0; v < e.positions.size(); ++v)
-    if (!is_finite(e.positions[v]) || e.positions[v].cwiseAbs().maxCoeff() > kLargest)
-      refuse("vertex " + std::to_string(v) + " of the shell is not finite or beyond 1e30");
-  for (std::size_t i = 0; i < e.values.size(); ++i)
-    if (!std::isfinite(e.values[i]) || std::abs(e.values[i]) > kLargest)
-      refuse("the value of vertex " + std::to_string(i / static_cast<std::size_t>(e.dimension)) +
-             " is not finite or beyond 1e30");
+  const auto first_out_of_range = [](std::span<const double> numbers) {
+    return static_cast<std::size_t>(
+        std::find_if(numbers.begin(), numbers.end(), [](double x) { return !is_in_range(x); }) -
+        numbers.begin());
+  };
+  const std::size_t coordinates = 3 * e.positions.size();
+  const std::size_t bad_coordinate =
+      coordinates == 0 ? 0 : first_out_of_range({e.positions[0].data(), coordinates});
+  if (bad_coordinate < coordinates)
+    refuse("vertex " + std::to_string(bad_coordinate / 3) +
+           " of the shell is not finite or beyond 1e30");
+  const std::size_t bad_value = first_out_of_range(e.values);
+  if (bad_value < e.values.size())
+    refuse("the value of vertex " +
+           std::to_string(bad_value / static_cast<std::size_t>(e.dimension)) +
+           " is not finite or beyond 1e30");
   if (e.overlapping_tets < 0 || static_cast<std::size_t>(e.overlapping_tets) > e.tets.size())
     refuse("its sizes contradict each other");
-  for (std::size_t t = 0; t < e.tets.size(); ++t)
-    for (const Index v : e.tets[t])
-      if (v < 0 || v >= e.vertex_count())
-        refuse("tetrahedron " + std::to_string(t) + " refers to vertex " + std::to_string(v) +
-               ", which does not exist");
+  const auto vertices = static_cast<std::uint32_t>(e.vertex_count());
+  for (std::size_t t = 0; t < e.tets.size(); ++t) {
+    std::uint32_t largest = 0;
+    for (const Index v : e.tets[t]) largest = std::max(largest, static_cast<std::uint32_t>(v));
+    if (largest >= vertices)
+      refuse("tetrahedron " + std::to_string(t) + " refers to vertex " +
+             std::to_string(static_cast<Index>(largest)) + ", which does not exist");
+  }
+  if (!e.face_order.empty()) {
+    std::vector<bool> is_there(e.faces.size(), false);
+    for (const Index f : e.face_order)
+      if (f >= 0 && f < e.face_count()) is_there[at(f)] = true;
+    if (e.face_order.size() != e.faces.size() ||
+        std::find(is_there.begin(), is_there.end(), false) != is_there.end())
+      refuse("its order of the faces is not one of all of them");
+  }
   return e;
 }
 
@@ -88,25 +119,36 @@ double SmoothProjector::Tetrahedron::nearest(const Vec3& y, Eigen::Vector4d& bar
   return best;
 }
 
-SmoothProjector::Tetrahedron SmoothProjector::tetrahedron(Index tet) const {
-  const std::array<Index, 4>& corners = embedding_.tets[at(tet)];
-  Tetrahedron result{embedding_.positions.data(), corners, false};
-  const Vec3 &a = result.corner(0), &b = result.corner(1), &c = result.corner(2),
-             &d = result.corner(3);
+bool SmoothProjector::Tetrahedron::is_flat() const {
+  const Vec3 &a = corner(0), &b = corner(1), &c = corner(2), &d = corner(3);
+  const double volume = (b - a).cross(c - a).dot(d - a);
+  // Most are far from it; the sum of the box's sides is not less than the longest edge.
+  const double extent = box().sizes().sum();
+  if (std::abs(volume) > kFlat * extent * extent * extent) return false;
   const double longest2 =
       std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (d - a).squaredNorm(),
                 (c - b).squaredNorm(), (d - b).squaredNorm(), (d - c).squaredNorm()});
-  const double volume = (b - a).cross(c - a).dot(d - a);
-  result.is_flat = !(std::abs(volume) > kFlat * longest2 * std::sqrt(longest2));
-  return result;
+  return !(std::abs(volume) > kFlat * longest2 * std::sqrt(longest2));
 }
 
 SmoothProjector::SmoothProjector(Embedding embedding, const spatial::Target& target)
     : embedding_(checked(std::move(embedding), target)),
       target_(&target),
-      surface_(target.mesh(), target.half_edges(), embedding_.values, embedding_.dimension),
-      shell_(static_cast<Index>(embedding_.tets.size()),
-             [this](Index tet) { return tetrahedron(tet); }) {}
+      surface_(target.mesh(), target.half_edges(), embedding_.values, embedding_.dimension,
+               embedding_.face_order) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : embedding_.positions) box.extend(p);
+  // Each is asked for once, in order, while its corners are at hand.
+  shell_ = {box, static_cast<Index>(embedding_.tets.size()), [this](Index tet) {
+              const Tetrahedron t = tetrahedron(tet);
+              if (t.is_flat()) flat_.push_back(tet);
+              return t;
+            }};
+}
+
+bool SmoothProjector::is_flat(Index tet) const {
+  return std::binary_search(flat_.begin(), flat_.end(), tet);
+}
 
 namespace {
 
@@ -134,8 +176,8 @@ struct Places {
 ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
   Places best;
   double depth = -kOnFace;
-  const auto consider = [&](Index tet, const Tetrahedron& t) {
-    const Eigen::Vector4d bary = t.barycentric(y);
+  const auto consider = [&](Index tet) {
+    const Eigen::Vector4d bary = tetrahedron(tet).barycentric(y);
     const double least = bary.minCoeff();
     if (!(least >= depth)) return false;
     if (least > depth) best.start_over();
@@ -146,15 +188,14 @@ ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
   bool is_in_flat = false;
   const bool is_hint = hint.tet >= 0 && hint.tet < shell_.size() && !overlaps(hint.tet);
   if (is_hint) {
-    const Tetrahedron t = tetrahedron(hint.tet);
-    if (t.is_flat || !consider(hint.tet, t)) {
+    if (is_flat(hint.tet) || !consider(hint.tet)) {
       best.start_over();
       depth = -kOnFace;
     }
   }
   if (best.count == 0)
-    shell_.containing(y, [&](Index tet, const Tetrahedron& t) {
-      if (!t.is_flat) return consider(tet, t);
+    shell_.containing(y, [&](Index tet, spatial::NoPack) {
+      if (!is_flat(tet)) return consider(tet);
       is_in_flat = true;
       return false;
     });
@@ -165,8 +206,9 @@ ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
     Eigen::Vector4d bary;
     const double touching = kOnFace * target_->diagonal();
     bool is_inside = false;
-    shell_.containing(y, [&](Index, const Tetrahedron& t) {
-      if (!t.is_flat) return false;
+    shell_.containing(y, [&](Index tet, spatial::NoPack) {
+      if (!is_flat(tet)) return false;
+      const Tetrahedron t = tetrahedron(tet);
       const Vec3 &a = t.corner(0), ab = t.corner(1) - a, ac = t.corner(2) - a, ad = t.corner(3) - a;
       const double volume = ab.cross(ac).dot(ad);
       if (std::abs(volume) > 0.0 && t.barycentric(y).minCoeff() >= -kOnFace) is_inside = true;
@@ -175,9 +217,9 @@ ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
     });
     if (is_inside || near_flat2 <= touching * touching) {
       double distance2 = kInfinity;
-      shell_.nearest(y, kInfinity, [&](Index tet, const Tetrahedron& t, double bound2) {
-        if (t.is_flat) return bound2;
-        const double d2 = t.nearest(y, bary);
+      shell_.nearest(y, kInfinity, [&](Index tet, spatial::NoPack, double bound2) {
+        if (is_flat(tet)) return bound2;
+        const double d2 = tetrahedron(tet).nearest(y, bary);
         if (!(d2 <= distance2)) return bound2;
         if (d2 < distance2) best.start_over();
         best.add({tet, bary});

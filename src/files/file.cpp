@@ -4,6 +4,8 @@
 #include <memory>
 #include <system_error>
 
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
@@ -47,6 +49,28 @@ std::string read_file(const std::string& path) {
     bytes.append(block, count);
   if (std::ferror(file.get())) fail(path, "cannot be read", errno);
   return bytes;
+}
+
+MappedFile::MappedFile(const std::string& path) {
+  const File file(std::fopen(path.c_str(), "rb"));
+  if (!file) fail(path, "cannot be opened", errno);
+  struct stat status = {};
+  if (::fstat(::fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode) &&
+      status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* const map = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, ::fileno(file.get()), 0);
+    if (map != MAP_FAILED) {
+      bytes_ = {static_cast<const char*>(map), size};
+      return;
+    }
+  }
+  read_ = read_file(path);
+  bytes_ = read_;
+}
+
+MappedFile::~MappedFile() {
+  if (bytes_.data() == read_.data()) return;
+  ::munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <mimicry/base/error.h>
@@ -133,6 +135,11 @@ class Reader {
 
   // Of whole elements of `element` bytes.
   std::string_view section(std::string_view wanted, std::size_t element) const {
+    if (const auto found = optional_section(wanted, element)) return *found;
+    refuse("section " + std::string(wanted) + " is missing; bake again");
+  }
+  std::optional<std::string_view> optional_section(std::string_view wanted,
+                                                   std::size_t element) const {
     for (std::size_t i = 0; i < count_; ++i) {
       const char* entry = bytes_.data() + kHeader + i * kEntry;
       if (std::string_view(entry, 4) != wanted) continue;
@@ -141,7 +148,7 @@ class Reader {
         refuse("section " + std::string(wanted) + " does not fit in it; bake again");
       return bytes_.substr(offset, size);
     }
-    refuse("section " + std::string(wanted) + " is missing; bake again");
+    return std::nullopt;
   }
 
  private:
@@ -159,13 +166,14 @@ std::string write_embedding(const Embedding& e) {
     else
       append_little_endian(meta, x);
   });
-  const std::array<std::pair<std::string_view, std::string>, 5> sections = {
+  const std::array<std::pair<std::string_view, std::string>, 6> sections = {
       {{"META", std::move(meta)},
        {"FACE", array_bytes(e.faces.empty() ? nullptr : e.faces[0].data(), 3 * e.faces.size())},
        {"POSI",
         array_bytes(e.positions.empty() ? nullptr : e.positions[0].data(), 3 * e.positions.size())},
        {"TETS", array_bytes(e.tets.empty() ? nullptr : e.tets[0].data(), 4 * e.tets.size())},
-       {"VALU", array_bytes(e.values.data(), e.values.size())}}};
+       {"VALU", array_bytes(e.values.data(), e.values.size())},
+       {"ORDR", array_bytes(e.face_order.data(), e.face_order.size())}}};
 
   const auto aligned = [](std::size_t at) {
     return (at + kAlignment - 1) / kAlignment * kAlignment;
@@ -236,11 +244,18 @@ Embedding read_embedding(std::string_view bytes, std::string_view name) {
       if (v < 0 || v >= e.mesh_vertex_count)
         reader.refuse("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
                       ", which the mesh does not have; bake again");
-  for (std::size_t t = 0; t < e.tets.size(); ++t)
-    for (const Index v : e.tets[t])
-      if (v < 0 || static_cast<std::size_t>(v) >= vertices)
-        reader.refuse("tetrahedron " + std::to_string(t) + " refers to vertex " +
-                      std::to_string(v) + ", which does not exist; bake again");
+  for (std::size_t t = 0; t < e.tets.size(); ++t) {
+    std::uint32_t largest = 0;
+    for (const Index v : e.tets[t]) largest = std::max(largest, static_cast<std::uint32_t>(v));
+    if (largest >= vertices)
+      reader.refuse("tetrahedron " + std::to_string(t) + " refers to vertex " +
+                    std::to_string(static_cast<Index>(largest)) +
+                    ", which does not exist; bake again");
+  }
+  if (const auto order = reader.optional_section("ORDR", sizeof(Index))) {
+    e.face_order.resize(order->size() / sizeof(Index));
+    read_array(*order, e.face_order.data());
+  }
   return e;
 }
 

@@ -179,6 +179,7 @@ embedding::Embedding make_embedding(EmbeddingText surface, EmbeddingText shell) 
   const TriangleMesh mesh = embedding::mesh_of(e);
   e.mesh_hash = embedding::content_hash(mesh);
   e.diagonal = diagonal(mesh);
+  embedding::sort_for_search(e);
   return e;
 }
 

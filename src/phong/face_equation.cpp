@@ -18,6 +18,7 @@ constexpr int kMostReturns = 6;  // into the triangle, of a step out of it
 constexpr int kMostPieces = 128;
 constexpr int kDeepest = 12;
 constexpr int kSweeps = 10;
+constexpr double kSettled = 1e-14;  // a change that rounding makes
 
 constexpr std::size_t next(std::size_t i) {
   return i == 2 ? 0 : i + 1;
@@ -66,46 +67,76 @@ bool excludes_zero(const Vec2* c, std::size_t count) {
   return least > kMargin * std::sqrt(largest);
 }
 
-}  // namespace
-
-Mat2 nearest_orthogonal(const Mat2& m) {
+inline Mat2 polar_factor(const Mat2& m) {
   // A 2 x 2 matrix is a scaled rotation plus a scaled reflection; the larger one wins.
   const double turn_cos = m(0, 0) + m(1, 1), turn_sin = m(1, 0) - m(0, 1);
   const double flip_cos = m(0, 0) - m(1, 1), flip_sin = m(1, 0) + m(0, 1);
-  const double turn = std::hypot(turn_cos, turn_sin), flip = std::hypot(flip_cos, flip_sin);
-  if (!(std::max(turn, flip) > 1e-300)) return Mat2::Identity();
+  const double turn2 = turn_cos * turn_cos + turn_sin * turn_sin,
+               flip2 = flip_cos * flip_cos + flip_sin * flip_sin;
+  if (!(std::max(turn2, flip2) > 1e-300)) return Mat2::Identity();
   Mat2 result;
-  if (turn >= flip)
-    result << turn_cos / turn, -turn_sin / turn, turn_sin / turn, turn_cos / turn;
-  else
-    result << flip_cos / flip, flip_sin / flip, flip_sin / flip, -flip_cos / flip;
+  if (turn2 >= flip2) {
+    const double scale = 1.0 / std::sqrt(turn2), c = turn_cos * scale, s = turn_sin * scale;
+    result << c, -s, s, c;
+  } else {
+    const double scale = 1.0 / std::sqrt(flip2), c = flip_cos * scale, s = flip_sin * scale;
+    result << c, s, s, -c;
+  }
   return result;
 }
 
+}  // namespace
+
+Mat2 nearest_orthogonal(const Mat2& m) {
+  return polar_factor(m);
+}
+
 FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basis*, 3>& t) {
-  FaceFrames frames;
-  std::array<Basis, 3> sum;  // of an edge's pair
-  std::array<Mat2, 3> along;
-  for (std::size_t e = 0; e < 3; ++e) {
-    const Basis &ti = *t[e], &tj = *t[next(e)];
-    along[e] = nearest_orthogonal(tj * ti.transpose());
-    sum[e] = along[e] * ti + tj;
+  // All that Procrustes needs of the pairs' sums s_e = R_e T_e + T_next are the products s_f s_e^T,
+  // and those of T.
+  std::array<std::array<Mat2, 3>, 3> product;  // T_i T_j^T
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = next(i);
+    product[i][i].setIdentity();
+    product[i][j].noalias() = t[i]->lazyProduct(t[j]->transpose());
+    product[j][i] = product[i][j].transpose();
   }
+  std::array<Mat2, 3> along;
+  for (std::size_t e = 0; e < 3; ++e) along[e] = polar_factor(product[next(e)][e]);
+  std::array<std::array<Mat2, 3>, 3> sums;  // s_f s_e^T
+  for (std::size_t f = 0; f < 3; ++f)
+    for (std::size_t e = f; e < 3; ++e) {
+      const Mat2 from = along[f] * product[f][e] + product[next(f)][e];
+      const Mat2 to = along[f] * product[f][next(e)] + product[next(f)][next(e)];
+      sums[f][e] = from * along[e].transpose() + to;
+      sums[e][f] = sums[f][e].transpose();
+    }
   // The mean of all six is brought nearer to each pair in turn. The first pair starts it, so that
   // no pair begins on the wrong side of a reflection.
-  std::array<Mat2, 3> turn;
-  turn.fill(Mat2::Identity());
-  Basis mean = sum[0];
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t e = 0; e < 3; ++e) turn[e] = nearest_orthogonal(mean * sum[e].transpose());
-    mean = (turn[0] * sum[0] + turn[1] * sum[1] + turn[2] * sum[2]) / 6.0;
+  std::array<Mat2, 3> turn, mean = sums[0];  // mean[e]: of all, times s_e^T
+  for (std::size_t e = 0; e < 3; ++e) turn[e] = polar_factor(mean[e]);
+  double last_change = 1.0;
+  for (int sweep = 1; sweep < kSweeps; ++sweep) {
+    double change = 0.0;
+    for (std::size_t e = 0; e < 3; ++e)
+      mean[e] = turn[0] * sums[0][e] + turn[1] * sums[1][e] + turn[2] * sums[2][e];
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Mat2 better = polar_factor(mean[e]);
+      change = std::max(change, (better - turn[e]).squaredNorm());
+      turn[e] = better;
+    }
+    // Changes shrink by one factor, so that this is what the next one would be.
+    if (change * change < kSettled * kSettled * last_change) break;
+    last_change = change;
   }
+  FaceFrames frames;
   for (std::size_t e = 0; e < 3; ++e) {
     frames.from[e] = turn[e] * along[e];
     frames.to[e] = turn[e];
   }
+  const std::array<Vec8, 2> side = {x[1] - x[0], x[2] - x[0]};
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t l = 1; l < 3; ++l) frames.offset[i][l - 1] = *t[i] * (x[l] - x[0]);
+    for (std::size_t l = 0; l < 2; ++l) frames.offset[i][l] = *t[i] * side[l];
   return frames;
 }
 

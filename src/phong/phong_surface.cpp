@@ -53,8 +53,20 @@ double PhongSurface::Flat::distance2_below(const Vec8& y) const {
   return distance2 - 1e-13 * v2;  // more than all rounding
 }
 
+std::vector<Index> face_order(std::span<const Face> faces, std::span<const double> values,
+                              int dimension) {
+  if (dimension < 1 || dimension > kDimension) return {};
+  std::vector<Vec8> centres(faces.size(), Vec8::Zero());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const Index v : faces[f])
+      centres[f].head(dimension) += Eigen::Map<const Eigen::VectorXd>(
+          values.data() + at(v) * static_cast<std::size_t>(dimension), dimension);
+  return spatial::leaf_order<kDimension>(centres);
+}
+
 PhongSurface::PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                           std::span<const double> values, int dimension) {
+                           std::span<const double> values, int dimension,
+                           std::span<const Index> order) {
   if (dimension < 1 || dimension > kDimension)
     throw Error(ErrorKind::unsupported, "embedding: dimension " + std::to_string(dimension) +
                                             " is not between 1 and 8; bake with 8 or fewer");
@@ -74,7 +86,9 @@ PhongSurface::PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges
     faces_.push_back(
         {f, make_frames({value(f[0]), value(f[1]), value(f[2])},
                         {&tangents_[at(f[0])], &tangents_[at(f[1])], &tangents_[at(f[2])]})});
-  bvh_ = {mesh.face_count(), [&](Index f) { return flat(f); }};
+  std::vector<Index> found;
+  if (order.empty()) order = found = face_order(mesh.faces(), values, dimension);
+  bvh_ = {box, mesh.face_count(), [&](Index f) { return flat(f); }, order};
 }
 
 PhongSurface::Flat PhongSurface::flat(Index face) const {

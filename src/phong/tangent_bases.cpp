@@ -55,18 +55,35 @@ bool ring_of(const HalfEdges& edges, Index v, std::vector<Index>& ring, bool& is
   return true;
 }
 
+// Cosine and sine of k n-ths of a turn, for each n that was asked for.
+class Turns {
+ public:
+  const std::vector<Vec2>& of(std::size_t n) {
+    if (n >= turns_.size()) turns_.resize(n + 1);
+    std::vector<Vec2>& result = turns_[n];
+    for (std::size_t k = result.size(); k < n; ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+      result.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<Vec2>> turns_;
+};
+
 // Loop's limit tangents; the scale of each does not matter.
 void loop_tangents(const Vec8& centre, std::span<const Index> ring, std::span<const Vec8> values,
-                   bool is_closed, Vec8& s, Vec8& t) {
+                   bool is_closed, Turns& turns, Vec8& s, Vec8& t) {
   s.setZero();
   t.setZero();
   const std::size_t n = ring.size();
   const auto spoke = [&](std::size_t k) -> Vec8 { return values[at(ring[k])] - centre; };
   if (is_closed) {
+    const std::vector<Vec2>& turn = turns.of(n);
     for (std::size_t k = 0; k < n; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
-      s += std::cos(angle) * spoke(k);
-      t += std::sin(angle) * spoke(k);
+      s += turn[k][0] * spoke(k);
+      t += turn[k][1] * spoke(k);
     }
     return;
   }
@@ -101,11 +118,12 @@ std::vector<Basis> tangent_bases(const HalfEdges& half_edges, std::span<const Fa
   std::vector<Basis> bases(values.size(), Basis::Identity());
   std::vector<Index> ring, doubtful;
   std::vector<Index> slot(values.size(), kNone);
+  Turns turns;
   for (Index v = 0; v < static_cast<Index>(values.size()); ++v) {
     bool is_closed = true;
     if (ring_of(half_edges, v, ring, is_closed)) {
       Vec8 s, t;
-      loop_tangents(values[at(v)], ring, values, is_closed, s, t);
+      loop_tangents(values[at(v)], ring, values, is_closed, turns, s, t);
       if (orthonormalise(s, t, bases[at(v)])) continue;
     }
     slot[at(v)] = static_cast<Index>(doubtful.size());

@@ -13,58 +13,13 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/embedding/spline.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "embedding/baked.h"
 #include "support/allocations.h"
 
 namespace mimicry::embedding {
 namespace {
-
-struct Baked {
-  std::string name;
-  spatial::Target target;
-  SmoothProjector projector;
-
-  Baked(std::string n, const TriangleMesh& mesh)
-      : name(std::move(n)), target(mesh), projector(baked(mesh), target) {}
-  static Embedding baked(const TriangleMesh& mesh) {
-    BakeOptions options;
-    options.samples = 150;
-    return bake::bake(mesh, options);
-  }
-
-  SurfacePoint random_point(Random& random) const {
-    const auto count = static_cast<std::uint32_t>(target.mesh().face_count());
-    SurfacePoint p{static_cast<Index>(random.below(count)), Vec3::Zero()};
-    const double r = std::sqrt(random.uniform()), s = random.uniform();
-    p.bary = Vec3(1.0 - r, r * (1.0 - s), r * s);
-    return p;
-  }
-  // Within the shell but for a few.
-  Vec3 query(Random& random, double reach = 0.055) const {
-    const Vec3 away(random.normal(), random.normal(), random.normal());
-    return target.position(random_point(random)) +
-           random.uniform(0.0, reach) * target.diagonal() * away.normalized();
-  }
-};
-
-// Baked once; every test reads them only.
-const std::vector<std::unique_ptr<Baked>>& shapes() {
-  static const auto all = [] {
-    std::vector<std::unique_ptr<Baked>> list;
-    list.push_back(std::make_unique<Baked>("sphere", make_sphere(7)));
-    list.push_back(std::make_unique<Baked>("torus", make_torus(30, 14)));
-    list.push_back(std::make_unique<Baked>("cube", make_box(7, 7, 7, Vec3::Constant(0.8))));
-    list.push_back(std::make_unique<Baked>("grid", make_grid(14)));
-    list.push_back(std::make_unique<Baked>("two-spheres", make_two_spheres(5)));
-    return list;
-  }();
-  return all;
-}
-const Baked& sphere() {
-  return *shapes()[0];
-}
 
 TEST(SmoothProjector, PointsOfTheMeshProjectToThemselves) {
   Random random(1);
@@ -275,6 +230,36 @@ TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
   e = shape.projector.embedding();
   e.values[17] = kInfinity;
   refused(e, shape.target, "vertex 2");
+  e = shape.projector.embedding();
+  e.face_order[3] = e.face_order[4];
+  refused(e, shape.target, "order of the faces");
+}
+
+TEST(SmoothProjector, AnyOrderOfTetrahedraAndFacesGivesTheSamePoints) {
+  for (const auto& shape : shapes()) {
+    Embedding shuffled = shape->projector.embedding();
+    Random random(8);
+    const std::size_t own =
+        shuffled.tets.size() - static_cast<std::size_t>(shuffled.overlapping_tets);
+    for (std::size_t i = own; i-- > 1;)
+      std::swap(shuffled.tets[i], shuffled.tets[random.below(static_cast<std::uint32_t>(i + 1))]);
+    shuffled.face_order.clear();
+    const SmoothProjector other(shuffled, shape->target);
+    Embedding sorted = shuffled;
+    sort_for_search(sorted);
+    EXPECT_EQ(sorted.face_order, shape->projector.embedding().face_order);
+    // Those that overlap are still the last.
+    const auto last = static_cast<std::ptrdiff_t>(own);
+    EXPECT_TRUE(std::is_permutation(sorted.tets.begin() + last, sorted.tets.end(),
+                                    shuffled.tets.begin() + last));
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 y = shape->query(random);
+      const auto a = shape->projector.project(y), b = other.project(y);
+      EXPECT_EQ(a->label, b->label);
+      // The rounding of another tetrahedron on a common face.
+      EXPECT_LT((a->position - b->position).norm(), 1e-9) << shape->name;
+    }
+  }
 }
 
 TEST(SmoothProjector, QueriesAllocateNothing) {
@@ -300,98 +285,6 @@ TEST(WeightedAverage, OfOnePointIsThePoint) {
       EXPECT_LT((q.position - shape->target.position(points[1])).norm(),
                 1e-9 * shape->target.diagonal());
     }
-}
-
-TEST(Spline, OnAPlaneIsThePlanesSpline) {
-  const Baked& grid = *shapes()[3];
-  std::vector<SurfacePoint> controls;
-  for (const Vec2& p :
-       {Vec2(-0.5, -0.4), Vec2(-0.2, 0.3), Vec2(0.1, -0.2), Vec2(0.5, 0.4), Vec2(0.6, -0.3)})
-    controls.push_back(grid.target.closest_point(Vec3(p[0], p[1], 0.0))->surface);
-  const auto at = [&](std::size_t i) { return grid.target.position(controls[i]); };
-  // Where two spans meet: a sixth, four sixths, a sixth.
-  const SmoothPoint joint = b_spline_point(grid.projector, controls, 1.0);
-  // The scaling of the embedding's distances leaves a grid flat but for its quality.
-  EXPECT_LT((joint.position - (at(1) + 4.0 * at(2) + at(3)) / 6.0).norm(), 0.02);
-}
-
-// Controls about a fifth of the shape apart.
-std::vector<SurfacePoint> winding_controls(const spatial::Target& target) {
-  std::vector<SurfacePoint> controls;
-  for (int i = 0; i < 7; ++i) {
-    const double a = 0.35 * i;
-    controls.push_back(
-        target.closest_point(Vec3(std::cos(a), std::sin(a), 0.2 * std::sin(2.0 * a)))->surface);
-  }
-  return controls;
-}
-
-TEST(Spline, IsSmoothOnTheSurface) {
-  for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
-    const std::vector<SurfacePoint> controls = winding_controls(shape->target);
-    double coarse = 0.0, fine = 0.0;  // largest angle between consecutive steps
-    for (const Index points : {200, 800}) {
-      const auto curve = b_spline_curve(shape->projector, controls, points);
-      double& worst = points == 200 ? coarse : fine;
-      for (std::size_t i = 2; i < curve.size(); ++i) {
-        EXPECT_EQ(curve[i].label, ScpLabel::smooth);
-        const Vec3 a = curve[i - 1].position - curve[i - 2].position;
-        const Vec3 b = curve[i].position - curve[i - 1].position;
-        worst = std::max(worst, std::atan2(a.cross(b).norm(), a.dot(b)));
-      }
-    }
-    // What is left of the angle is the surface's own: edges between facets, bent by 10 degrees on
-    // the sphere.
-    EXPECT_LT(fine, 0.35) << shape->name;
-    EXPECT_LT(fine, 1.2 * coarse) << shape->name;
-  }
-}
-
-// Turns, within the surface, from one step of a curve to the one after the next.
-struct Turns {
-  double in_faces = 0.0;      // the largest where both are in one face
-  double across_edges = 0.0;  // the largest where they are in two faces, laid out flat
-};
-
-Turns turns_of(const TriangleMesh& mesh, const std::vector<SmoothPoint>& curve) {
-  Turns turns;
-  for (std::size_t i = 3; i < curve.size(); ++i) {
-    const Index f = curve[i - 2].surface.face, g = curve[i - 1].surface.face;
-    if (curve[i - 3].surface.face != f || curve[i].surface.face != g) continue;
-    const Vec3 a = curve[i - 2].position - curve[i - 3].position;
-    const Vec3 b = curve[i].position - curve[i - 1].position;
-    Vec3 edge = mesh.corner(f, 1) - mesh.corner(f, 0);
-    if (f != g) {
-      std::vector<Index> shared;
-      for (const Index v : mesh.face(f))
-        for (const Index w : mesh.face(g))
-          if (v == w) shared.push_back(v);
-      if (shared.size() != 2) continue;
-      edge = mesh.position(shared[1]) - mesh.position(shared[0]);
-    }
-    edge.normalize();
-    const Vec3 across_f = mesh.area_vector(f).normalized().cross(edge);
-    const Vec3 across_g = mesh.area_vector(g).normalized().cross(edge);
-    const Vec2 from(a.dot(edge), a.dot(across_f)), to(b.dot(edge), b.dot(across_g));
-    double& worst = f == g ? turns.in_faces : turns.across_edges;
-    worst = std::max(worst, std::abs(std::atan2(from[0] * to[1] - from[1] * to[0], from.dot(to))));
-  }
-  return turns;
-}
-
-TEST(Spline, TurnsSmoothlyWithinFacesAndLittleAcrossEdges) {
-  for (const Baked* shape : {shapes()[0].get(), shapes()[1].get()}) {
-    const std::vector<SurfacePoint> controls = winding_controls(shape->target);
-    const auto turns = [&](Index points) {
-      return turns_of(shape->target.mesh(), b_spline_curve(shape->projector, controls, points));
-    };
-    // Within faces, and there where spans meet, a corner would keep its angle.
-    const Turns coarse = turns(800), fine = turns(6400);
-    EXPECT_LT(fine.in_faces, 0.5 * coarse.in_faces) << shape->name;
-    // Across edges some degrees are left, at finer resolutions of the mesh too
-    // (docs/smoothness.md).
-    EXPECT_LT(fine.across_edges, 0.1) << shape->name;
-  }
 }
 
 TEST(SmoothProjector, OnTheMedialAxisThereIsALabelledAnswer) {

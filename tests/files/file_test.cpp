@@ -38,6 +38,11 @@ TEST_F(FileTest, EveryByteComesBackAndNothingElseIsLeft) {
   write_file_atomically(path("a"), "before");
   write_file_atomically(path("a"), bytes);
   EXPECT_EQ(read_file(path("a")), bytes);
+  EXPECT_EQ(MappedFile(path("a")).bytes(), bytes);
+  write_file_atomically(path("empty"), "");
+  EXPECT_EQ(MappedFile(path("empty")).bytes(), "");
+  EXPECT_THROW(MappedFile(path("nowhere")), Error);
+  fs::remove(path("empty"));
   write_file_atomically(path("a"), "");
   EXPECT_EQ(read_file(path("a")), "");
   EXPECT_EQ(entries(), 1);

@@ -18,6 +18,7 @@ Embedding example() {
   e.dimension = 5;
   e.mesh_vertex_count = 7;
   e.faces = {{0, 1, 2}, {6, 5, 4}, {2, 3, 0}};
+  e.face_order = {2, 0, 1};
   e.mesh_hash = 0xfedcba9876543210U;
   e.diagonal = 1.75;
   for (int v = 0; v < 11; ++v) e.positions.emplace_back(random.normal(), 1e-300, -0.0);
@@ -54,6 +55,7 @@ TEST(EmbeddingFile, KeepsEveryNumber) {
   EXPECT_EQ(back.dimension, e.dimension);
   EXPECT_EQ(back.mesh_vertex_count, e.mesh_vertex_count);
   EXPECT_EQ(back.faces, e.faces);
+  EXPECT_EQ(back.face_order, e.face_order);
   EXPECT_EQ(back.mesh_hash, e.mesh_hash);
   EXPECT_EQ(back.diagonal, e.diagonal);
   EXPECT_EQ(back.positions, e.positions);
@@ -76,7 +78,7 @@ TEST(EmbeddingFile, KeepsEveryNumber) {
 
 TEST(EmbeddingFile, SectionsAreAligned) {
   const std::string bytes = write_embedding(example());
-  for (std::size_t i = 0; i < 5; ++i)
+  for (std::size_t i = 0; i < 6; ++i)
     EXPECT_EQ(static_cast<unsigned char>(bytes[32 + 24 * i + 8]) % 64, 0);
 }
 

@@ -197,6 +197,55 @@ TEST(Bvh, RefitAnswersAsARebuildDoes) {
   }
 }
 
+TEST(Bvh, AnyLeafOrderAnswersAsBruteForceDoes) {
+  for (const Named& named : meshes()) {
+    const Both both(named.mesh);
+    const auto count = static_cast<Index>(named.mesh.face_count());
+    std::vector<Vec3> centres;
+    for (Index f = 0; f < count; ++f) centres.push_back(both.get()(f).box().center());
+    std::vector<Index> scattered(static_cast<std::size_t>(count));
+    for (Index f = 0; f < count; ++f)
+      scattered[static_cast<std::size_t>(f)] = static_cast<Index>(f * 7919LL % count);
+    if (count % 7919 == 0) scattered.clear();
+    const auto box = mimicry::bounding_box(named.mesh);
+    for (const std::vector<Index>& order :
+         {std::vector<Index>(), scattered, leaf_order<3>(centres)}) {
+      const Bvh<3, Triangle> bvh(box, count, both.get(), order);
+      Random random(16);
+      for (int i = 0; i < 100; ++i) {
+        const Vec3 y = query(random, named.mesh, 1.0);
+        const NearestTriangle a = nearest_triangle(bvh, y, kInfinity, kNone, both.get());
+        const NearestTriangle b = nearest_triangle(both.brute, y, kInfinity, kNone, both.get());
+        ASSERT_EQ(a.surface.face, b.surface.face) << named.name;
+        const Ray ray(y, unit_vector(random));
+        ASSERT_EQ(first_on_ray(bvh, ray).surface.face, first_on_ray(both.brute, ray).surface.face)
+            << named.name;
+      }
+    }
+  }
+}
+
+TEST(LeafOrder, BlocksLieTogetherAndTheLastStayBehind) {
+  Random random(17);
+  for (const int count : {0, 1, 4, 5, 16, 17, 63, 200, 1025}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i) points.push_back(uniform_vector(random, 1.0));
+    const Index last = count / 3, own = count - last;
+    const std::vector<Index> order = leaf_order<3>(points, last);
+    std::vector<Index> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    for (Index i = 0; i < count; ++i) ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+    for (Index i = 0; i < count; ++i)
+      ASSERT_EQ(order[static_cast<std::size_t>(i)] >= own, i >= own) << count;
+  }
+  // A row of 64 points: every block is a run of it.
+  std::vector<Vec3> row;
+  for (int i = 0; i < 64; ++i) row.push_back(Vec3(i * 37 % 64, 0.0, 0.0));
+  const std::vector<Index> order = leaf_order<3>(row);
+  for (std::size_t i = 0; i < 64; ++i)
+    EXPECT_EQ(static_cast<std::size_t>(row[static_cast<std::size_t>(order[i])][0]) / 4, i / 4);
+}
+
 // Boxes alone, in eight dimensions, as the Phong projection and point location use them.
 struct Block {
   Eigen::AlignedBox<double, 8> extent;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/phong/phong_surface.h>
@@ -52,7 +53,7 @@ class SmoothProjector {
  public:
   /// Throws Error(invalid_input) where the embedding is of another mesh or contradicts itself
   /// (sizes, vertex numbers, numbers that are not finite), Error(unsupported) above 8 dimensions.
-  /// O(n log n).
+  /// O(#T + #F log #F).
   SmoothProjector(Embedding embedding, const spatial::Target& target);
   SmoothProjector(const SmoothProjector&) = delete;
   SmoothProjector& operator=(const SmoothProjector&) = delete;
@@ -86,19 +87,24 @@ class SmoothProjector {
 
  private:
   struct Tetrahedron {
+    using Pack = spatial::NoPack;  // the hierarchy holds numbers only
+
     const Vec3* positions;
     std::array<Index, 4> corners;
-    bool is_flat;
 
     const Vec3& corner(std::size_t k) const {
       return positions[static_cast<std::size_t>(corners[k])];
     }
     Eigen::AlignedBox3d box() const;
+    bool is_flat() const;
     Eigen::Vector4d barycentric(const Vec3& y) const;  // not where it is flat
     double nearest(const Vec3& y, Eigen::Vector4d& bary) const;
   };
 
-  Tetrahedron tetrahedron(Index tet) const;
+  Tetrahedron tetrahedron(Index tet) const {
+    return {embedding_.positions.data(), embedding_.tets[static_cast<std::size_t>(tet)]};
+  }
+  bool is_flat(Index tet) const;
   // Others may stand in the same place.
   bool overlaps(Index tet) const { return tet >= shell_.size() - embedding_.overlapping_tets; }
   ShellPoint of_nearest_part(const Vec3& y, std::span<const ShellPoint> places,
@@ -111,6 +117,7 @@ class SmoothProjector {
   const spatial::Target* target_;
   phong::PhongSurface surface_;
   spatial::Bvh<3, Tetrahedron> shell_;
+  std::vector<Index> flat_;  // tetrahedra; rising
 };
 
 }  // namespace mimicry::embedding

@@ -23,9 +23,10 @@ inline constexpr std::uint32_t kEmbeddingFileVersion = 2;
 /// Sections begin at multiples of 64 and hold plain arrays, so that a mapped file can be used where
 /// it lies: "META" (numbers, in the order of the source), "FACE" (#F by
 /// 3 32-bit vertices of the mesh), "POSI" (#V by 3 doubles), "TETS" (#T by 4
-/// 32-bit indices), "VALU" (#V by dimension doubles). Readers pass over sections that they do not
-/// know, and META may grow at its end. Not a serialisation library's format: with five flat arrays
-/// there is nothing to describe, and a verifier of offsets would still not see a flipped bit.
+/// 32-bit indices), "VALU" (#V by dimension doubles); and "ORDR" (#F 32-bit faces), which may be
+/// missing or empty. Readers pass over sections that they do not know, and META may grow at its
+/// end. Not a serialisation library's format: with six flat arrays there is nothing to describe,
+/// and a verifier of offsets would still not see a flipped bit.
 std::string write_embedding(const embedding::Embedding& embedding);
 
 /// The embedding that a file's bytes hold. `name` stands in the error messages only. Throws

@@ -20,6 +20,7 @@ struct FaceFrames {
 };
 
 /// The orthogonal matrix closest to m, reflections allowed: its polar factor. The identity for 0.
+/// Entries up to 1e150; below 1e-150 they are 0.
 Mat2 nearest_orthogonal(const Mat2& m);
 
 /// From the positions and tangent planes of the corners: R_ij by polar factors, the three E_ij by

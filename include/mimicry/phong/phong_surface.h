@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <mimicry/base/large_vector.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 #include <mimicry/phong/face_equation.h>
@@ -17,6 +18,11 @@ struct PhongPoint {
   double distance;  ///< |y - x| in the embedding
 };
 
+/// Faces in the order in which a `PhongSurface` searches them fastest (`spatial::leaf_order`).
+/// values: as there. Empty where the dimension is not from 1 to 8. O(#F log #F).
+std::vector<Index> face_order(std::span<const Face> faces, std::span<const double> values,
+                              int dimension);
+
 /// A triangle mesh in R^8 with the continuous tangent field of Phong projection: x = sum b_i x_i
 /// is the projection of y where T(b) (y - x) = 0 (Panozzo, Baran, Diamanti, Sorkine-Hornung,
 /// Weighted Averages on Surfaces, 2013, section 4.2). Of all triangles with a solution the one with
@@ -25,10 +31,11 @@ struct PhongPoint {
 class PhongSurface {
  public:
   /// values: #V by dimension, by rows; finite, sizes between 1e-30 and 1e30. More rows than
-  /// vertices are allowed and passed over. Throws Error(unsupported) for a dimension above 8.
-  /// O(#F log #F), about 700 bytes a face.
+  /// vertices are allowed and passed over. order: what `face_order` gives, which is called where it
+  /// is empty; any other order costs speed only. Throws Error(unsupported) for a dimension above 8.
+  /// O(#F), about 700 bytes a face.
   PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges,
-               std::span<const double> values, int dimension);
+               std::span<const double> values, int dimension, std::span<const Index> order = {});
 
   /// nullopt where no triangle has a solution. y: finite, below 1e60. hint: a face that is probably
   /// near, such as the last answer; it saves time and never changes the answer.
@@ -68,7 +75,7 @@ class PhongSurface {
 
   std::vector<Vec8> values_;     // #V
   std::vector<Basis> tangents_;  // #V
-  std::vector<Record> faces_;    // #F
+  LargeVector<Record> faces_;    // #F
   spatial::Bvh<kDimension, Flat> bvh_;
   double size_ = 0.0;
 };

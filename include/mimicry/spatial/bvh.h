@@ -12,21 +12,26 @@
 #include <utility>
 #include <vector>
 
+#include <mimicry/base/large_vector.h>
 #include <mimicry/base/types.h>
 #include <mimicry/spatial/lanes.h>
+#include <mimicry/spatial/leaf_order.h>
 
 namespace mimicry::spatial {
+
+/// Lets everything through.
+struct NoSieve {
+  template <class... Any>
+  explicit NoSieve(const Any&...) {}
+  void set_bound(float) {}
+};
 
 /// Four primitives of which nothing is known: each must be tested.
 template <class Primitive>
 class PlainPack {
  public:
-  struct NearSieve {
-    template <class... Any>
-    explicit NearSieve(const Any&...) {}
-    void set_bound(float) {}
-  };
-  using RaySieve = NearSieve;
+  using NearSieve = NoSieve;
+  using RaySieve = NoSieve;
 
   void set(int lane, const Primitive& p) { primitives_[static_cast<std::size_t>(lane)] = p; }
   const Primitive& get(std::size_t lane) const { return primitives_[lane]; }
@@ -34,6 +39,18 @@ class PlainPack {
 
  private:
   std::array<Primitive, 4> primitives_;
+};
+
+/// A pack without the primitives, which are at hand elsewhere: visitors get the number, and this.
+class NoPack {
+ public:
+  using NearSieve = NoSieve;
+  using RaySieve = NoSieve;
+
+  template <class Primitive>
+  void set(int, const Primitive&) {}
+  NoPack get(std::size_t) const { return {}; }
+  unsigned candidates(const NearSieve&) const { return 15U; }
 };
 
 namespace detail {
@@ -70,6 +87,13 @@ class Bvh {
   /// every number here stays in range. O(count log count).
   template <class Get>
   Bvh(Index count, Get&& primitive);
+  /// The same, without a search for where to divide: from primitives that stand in an order in
+  /// which neighbours are near (`leaf_order`; any order gives equal answers). order: #count,
+  /// leaves hold primitive(order[i]); as they come where it is empty. within: holds all their
+  /// boxes. primitive is called once for each, in the order of the leaves. Some twenty times as
+  /// fast as a build; queries are slower than after one, by a few tens of percent. O(count).
+  template <class Get>
+  Bvh(const Box& within, Index count, Get&& primitive, std::span<const Index> order = {});
 
   /// The same primitives moved: new boxes on the old tree. Slower queries than after a build where
   /// they moved far, equal answers. No allocation. O(count).
@@ -110,9 +134,10 @@ class Bvh {
   };
   static constexpr int kMostInLeaf = 4;
   using Pack = typename decltype(detail::pack_of<Primitive>())::type;
-  // Unused lanes repeat the first primitive.
-  struct alignas(64) Leaf {
-    Pack pack;
+  // Unused lanes repeat the first primitive. Leaves of numbers alone are packed densely.
+  static constexpr std::size_t kLeafAlignment = std::is_empty_v<Pack> ? 16 : 64;
+  struct alignas(kLeafAlignment) Leaf {
+    [[no_unique_address]] Pack pack;
     std::array<Index, kMostInLeaf> numbers;
   };
   static constexpr std::int32_t kUnused = std::numeric_limits<std::int32_t>::min();
@@ -124,6 +149,7 @@ class Bvh {
   static constexpr double kSlack = 1.0 + (Dim + 8) * 1.2e-7;
 
   struct Builder;
+  struct OrderedBuilder;
 
   struct Entry {
     float key;
@@ -199,8 +225,8 @@ class Bvh {
   template <class Visit>
   void nearest_from_afar(const Point& y, double bound2, Visit&& visit) const;
 
-  std::vector<Node> nodes_;  // children come after their parents
-  std::vector<Leaf> leaves_;
+  LargeVector<Node> nodes_;  // children come after their parents
+  LargeVector<Leaf> leaves_;
   Index count_ = 0;
   std::int32_t root_ = 0;
   Point centre_ = Point::Zero();

@@ -196,6 +196,73 @@ struct Bvh<Dim, PrimitiveType>::Builder {
 };
 
 template <int Dim, class PrimitiveType>
+struct Bvh<Dim, PrimitiveType>::OrderedBuilder {
+  static_assert(LeafBlocks::kInLeaf == kMostInLeaf && LeafBlocks::kWidth == kWidth);
+  using FloatBox = std::array<float, 2 * Dim>;
+
+  Bvh& bvh;
+  std::span<const Index> order;
+
+  template <class Get>
+  std::int32_t build(Index first, Index last, Get& primitive, FloatBox& box) {
+    box.fill(kFloatInfinity);
+    for (std::size_t k = 0; k < Dim; ++k) box[k + Dim] = -kFloatInfinity;
+    const auto extend = [&box](const FloatBox& other) {
+      for (std::size_t k = 0; k < Dim; ++k) {
+        box[k] = std::min(box[k], other[k]);
+        box[k + Dim] = std::max(box[k + Dim], other[k + Dim]);
+      }
+    };
+    if (last - first <= kMostInLeaf) {
+      const auto number = static_cast<std::int32_t>(bvh.leaves_.size());
+      Leaf& leaf = bvh.leaves_.emplace_back();
+      for (Index lane = 0; lane < kMostInLeaf; ++lane) {
+        const Index place = first + lane < last ? first + lane : first;
+        const Index i = order.empty() ? place : order[static_cast<std::size_t>(place)];
+        leaf.numbers[static_cast<std::size_t>(lane)] = i;
+        const auto p = primitive(i);
+        leaf.pack.set(lane, p);
+        extend(bvh.float_box(p.box()));
+      }
+      return ~((number << 3) | (last - first - 1));
+    }
+    const auto number = static_cast<std::int32_t>(bvh.nodes_.size());
+    bvh.nodes_.emplace_back();
+    const Index size = LeafBlocks::child_size(last - first);
+    for (int lane = 0; lane < kWidth; ++lane) {
+      FloatBox part;
+      part.fill(kFloatInfinity);
+      for (std::size_t k = 0; k < Dim; ++k) part[k + Dim] = -kFloatInfinity;
+      std::int32_t child = kUnused;
+      const Index begin = first + lane * size;
+      if (begin < last) {
+        child = build(begin, std::min(begin + size, last), primitive, part);
+        extend(part);
+      }
+      Node& node = bvh.nodes_[static_cast<std::size_t>(number)];
+      node.children[static_cast<std::size_t>(lane)] = child;
+      bvh.set_child_box(node, lane, part);
+    }
+    return number;
+  }
+};
+
+template <int Dim, class PrimitiveType>
+template <class Get>
+Bvh<Dim, PrimitiveType>::Bvh(const Box& within, Index count, Get&& primitive,
+                             std::span<const Index> order) {
+  if (count == 0) return;
+  assert(count < (1 << 28));
+  assert(order.empty() || order.size() == static_cast<std::size_t>(count));
+  set_frame(within);
+  nodes_.reserve(static_cast<std::size_t>(count) / 12 + 32);
+  leaves_.reserve((static_cast<std::size_t>(count) + kMostInLeaf - 1) / kMostInLeaf);
+  typename OrderedBuilder::FloatBox box;
+  root_ = OrderedBuilder{*this, order}.build(0, count, primitive, box);
+  count_ = count;
+}
+
+template <int Dim, class PrimitiveType>
 void Bvh<Dim, PrimitiveType>::set_frame(const Box& all) {
   centre_ = all.min() + 0.5 * (all.max() - all.min());
   const double half = 0.5 * (all.max() - all.min()).maxCoeff();

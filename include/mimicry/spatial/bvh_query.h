@@ -73,7 +73,7 @@ void Bvh<Dim, PrimitiveType>::nearest(const Point& y, double bound2, Visit&& vis
     }
     {
       const Leaf& l = leaf(child);
-      const auto consider = [&](Index i, const Primitive& primitive) {
+      const auto consider = [&](Index i, const auto& primitive) {
         const double smaller = visit(i, primitive, bound2);
         if (!(smaller < bound2)) return;
         bound2 = smaller;
@@ -119,7 +119,7 @@ void Bvh<Dim, PrimitiveType>::nearest_from_afar(const Point& y, double bound2,
     if (entry.key > limit(bound2)) continue;
     if (entry.child < 0) {
       for_each_lane(leaf(entry.child), used_lanes(entry.child),
-                    [&](Index i, const Primitive& primitive) {
+                    [&](Index i, const auto& primitive) {
                       bound2 = std::min(bound2, visit(i, primitive, bound2));
                     });
       continue;
@@ -251,7 +251,7 @@ void Bvh<Dim, PrimitiveType>::along(const Point& origin, const Point& direction,
     {
       const Leaf& l = leaf(child);
       for_each_lane(l, l.pack.candidates(sieve) & used_lanes(child),
-                    [&](Index i, const Primitive& primitive) {
+                    [&](Index i, const auto& primitive) {
                       const double smaller = visit(i, primitive, bound);
                       if (!(smaller < bound)) return;
                       bound = smaller;
