@@ -14,7 +14,7 @@ namespace mimicry::embedding {
 namespace {
 
 constexpr double kLargest = 1e30;  // of coordinates: squares and products stay in range
-// Sixfold volume over the cube of the longest edge, below which coordinates are rounding. The
+// Sixfold volume over the cube of the size, below which coordinates are rounding. The
 // shell's own are thicker (`bake::make_shell`).
 constexpr double kFlat = 1e-10;
 // Barycentric coordinates nearer to 0 than this are those of a point on a face.
@@ -94,13 +94,16 @@ Eigen::AlignedBox3d SmoothProjector::Tetrahedron::box() const {
   return result;
 }
 
-Eigen::Vector4d SmoothProjector::Tetrahedron::barycentric(const Vec3& y) const {
+bool SmoothProjector::Tetrahedron::barycentric(const Vec3& y, Eigen::Vector4d& bary) const {
   const Vec3 &a = corner(0), ab = corner(1) - a, ac = corner(2) - a, ad = corner(3) - a;
   const Vec3 ay = y - a, ac_ad = ac.cross(ad);
   const double volume = ab.dot(ac_ad);
+  const double size2 = ab.squaredNorm() + ac.squaredNorm() + ad.squaredNorm();
+  if (!(std::abs(volume) > kFlat * size2 * std::sqrt(size2))) return false;
   const Vec3 ab_ay = ab.cross(ay);
   const double b = ay.dot(ac_ad) / volume, c = ad.dot(ab_ay) / volume, d = -ac.dot(ab_ay) / volume;
-  return {1.0 - b - c - d, b, c, d};
+  bary = {1.0 - b - c - d, b, c, d};
+  return true;
 }
 
 // Squared distance to a point that is not inside, and the nearest point.
@@ -119,18 +122,6 @@ double SmoothProjector::Tetrahedron::nearest(const Vec3& y, Eigen::Vector4d& bar
   return best;
 }
 
-bool SmoothProjector::Tetrahedron::is_flat() const {
-  const Vec3 &a = corner(0), &b = corner(1), &c = corner(2), &d = corner(3);
-  const double volume = (b - a).cross(c - a).dot(d - a);
-  // Most are far from it; the sum of the box's sides is not less than the longest edge.
-  const double extent = box().sizes().sum();
-  if (std::abs(volume) > kFlat * extent * extent * extent) return false;
-  const double longest2 =
-      std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (d - a).squaredNorm(),
-                (c - b).squaredNorm(), (d - b).squaredNorm(), (d - c).squaredNorm()});
-  return !(std::abs(volume) > kFlat * longest2 * std::sqrt(longest2));
-}
-
 SmoothProjector::SmoothProjector(Embedding embedding, const spatial::Target& target)
     : embedding_(checked(std::move(embedding), target)),
       target_(&target),
@@ -138,16 +129,8 @@ SmoothProjector::SmoothProjector(Embedding embedding, const spatial::Target& tar
                embedding_.face_order) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : embedding_.positions) box.extend(p);
-  // Each is asked for once, in order, while its corners are at hand.
-  shell_ = {box, static_cast<Index>(embedding_.tets.size()), [this](Index tet) {
-              const Tetrahedron t = tetrahedron(tet);
-              if (t.is_flat()) flat_.push_back(tet);
-              return t;
-            }};
-}
-
-bool SmoothProjector::is_flat(Index tet) const {
-  return std::binary_search(flat_.begin(), flat_.end(), tet);
+  shell_ = {box, static_cast<Index>(embedding_.tets.size()),
+            [this](Index tet) { return tetrahedron(tet); }};
 }
 
 namespace {
@@ -176,8 +159,13 @@ struct Places {
 ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
   Places best;
   double depth = -kOnFace;
+  bool is_in_flat = false;  // in the box of a flat one at least
   const auto consider = [&](Index tet) {
-    const Eigen::Vector4d bary = tetrahedron(tet).barycentric(y);
+    Eigen::Vector4d bary;
+    if (!tetrahedron(tet).barycentric(y, bary)) {
+      is_in_flat = true;
+      return false;
+    }
     const double least = bary.minCoeff();
     if (!(least >= depth)) return false;
     if (least > depth) best.start_over();
@@ -185,41 +173,27 @@ ShellPoint SmoothProjector::locate(const Vec3& y, const ScpHint& hint) const {
     depth = least;
     return least > kOnFace && !overlaps(tet);  // then it is in no other
   };
-  bool is_in_flat = false;
   const bool is_hint = hint.tet >= 0 && hint.tet < shell_.size() && !overlaps(hint.tet);
-  if (is_hint) {
-    if (is_flat(hint.tet) || !consider(hint.tet)) {
-      best.start_over();
-      depth = -kOnFace;
-    }
+  if (is_hint && !consider(hint.tet)) {
+    best.start_over();
+    depth = -kOnFace;
   }
   if (best.count == 0)
-    shell_.containing(y, [&](Index tet, spatial::NoPack) {
-      if (!is_flat(tet)) return consider(tet);
-      is_in_flat = true;
-      return false;
-    });
+    shell_.containing(y, [&](Index tet, spatial::NoPack) { return consider(tet); });
   if (best.count == 0 && is_in_flat) {
-    // In the box of a flat one at least. The flat ones of the shell's rim bring in a sliver of the
-    // outside, no thicker than they are.
-    double near_flat2 = kInfinity;
-    Eigen::Vector4d bary;
+    // The flat ones of the shell's rim bring in a sliver of the outside, no thicker than they are.
     const double touching = kOnFace * target_->diagonal();
-    bool is_inside = false;
-    shell_.containing(y, [&](Index tet, spatial::NoPack) {
-      if (!is_flat(tet)) return false;
+    Eigen::Vector4d bary;
+    const bool is_near = shell_.containing(y, [&](Index tet, spatial::NoPack) {
       const Tetrahedron t = tetrahedron(tet);
-      const Vec3 &a = t.corner(0), ab = t.corner(1) - a, ac = t.corner(2) - a, ad = t.corner(3) - a;
-      const double volume = ab.cross(ac).dot(ad);
-      if (std::abs(volume) > 0.0 && t.barycentric(y).minCoeff() >= -kOnFace) is_inside = true;
-      if (!is_inside) near_flat2 = std::min(near_flat2, t.nearest(y, bary));
-      return is_inside;
+      return !t.barycentric(y, bary) && t.nearest(y, bary) <= touching * touching;
     });
-    if (is_inside || near_flat2 <= touching * touching) {
+    if (is_near) {
       double distance2 = kInfinity;
       shell_.nearest(y, kInfinity, [&](Index tet, spatial::NoPack, double bound2) {
-        if (is_flat(tet)) return bound2;
-        const double d2 = tetrahedron(tet).nearest(y, bary);
+        const Tetrahedron t = tetrahedron(tet);
+        if (!t.barycentric(y, bary)) return bound2;
+        const double d2 = t.nearest(y, bary);
         if (!(d2 <= distance2)) return bound2;
         if (d2 < distance2) best.start_over();
         best.add({tet, bary});

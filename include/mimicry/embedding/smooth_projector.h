@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/phong/phong_surface.h>
@@ -96,15 +95,14 @@ class SmoothProjector {
       return positions[static_cast<std::size_t>(corners[k])];
     }
     Eigen::AlignedBox3d box() const;
-    bool is_flat() const;
-    Eigen::Vector4d barycentric(const Vec3& y) const;  // not where it is flat
+    // False where it is too flat for coordinates.
+    bool barycentric(const Vec3& y, Eigen::Vector4d& bary) const;
     double nearest(const Vec3& y, Eigen::Vector4d& bary) const;
   };
 
   Tetrahedron tetrahedron(Index tet) const {
     return {embedding_.positions.data(), embedding_.tets[static_cast<std::size_t>(tet)]};
   }
-  bool is_flat(Index tet) const;
   // Others may stand in the same place.
   bool overlaps(Index tet) const { return tet >= shell_.size() - embedding_.overlapping_tets; }
   ShellPoint of_nearest_part(const Vec3& y, std::span<const ShellPoint> places,
@@ -117,7 +115,6 @@ class SmoothProjector {
   const spatial::Target* target_;
   phong::PhongSurface surface_;
   spatial::Bvh<3, Tetrahedron> shell_;
-  std::vector<Index> flat_;  // tetrahedra; rising
 };
 
 }  // namespace mimicry::embedding
