@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/csv.h>
@@ -15,11 +13,10 @@
 #include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/paired_rows.h"
+#include "cli/paper_agreement.h"
 
 namespace mimicry::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Arguments {
   std::string rows;
@@ -37,17 +34,31 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
   if (group.failed > 0) std::printf(", %zu left out (rejected or filtered)", group.failed);
   if (group.unpaired > 0) std::printf(", %zu rows without a partner", group.unpaired);
   std::printf("\n");
+  const std::string& a = args.methods[0];
+  const std::string& b = args.methods[1];
+  const bool has_paper = count_agreement(a, b, group, comparisons).rows > 0;
   std::vector<std::vector<std::string>> rows;
-  for (const study::Comparison& c : comparisons)
+  for (const study::Comparison& c : comparisons) {
     rows.push_back({c.name, significant(c.a.mean), significant(c.a.standard_deviation),
                     significant(c.b.mean), significant(c.b.standard_deviation), fixed(c.test.z, 2),
                     probability(c.test.p()), probability(c.p_holm), fixed(c.test.effect_r, 2),
                     fixed(c.test.rank_biserial, 2), significant(c.difference.low),
                     significant(c.difference.high)});
+    if (!has_paper) continue;
+    const auto* paper = paper_figure(a, b, group.name, c.name);
+    const auto agrees = paper != nullptr ? study::agreement(c, *paper) : study::Agreement();
+    const auto mark = [&](bool yes) { return paper == nullptr ? "" : yes ? "yes" : "no"; };
+    rows.back().emplace_back(mark(agrees.means()));
+    rows.back().emplace_back(mark(paper != nullptr && agrees.difference(*paper)));
+  }
   const std::string level = fixed(100 * args.comparison.bootstrap.level, 0) + " %";
-  print_table({"", args.methods[0], "sd", args.methods[1], "sd", "z", "p", "Holm p", "r",
-               "rank-biserial", level + " from", "to"},
-              rows);
+  std::vector<std::string> heading = {
+      "", a, "sd", b, "sd", "z", "p", "Holm p", "r", "rank-biserial", level + " from", "to"};
+  if (has_paper) {
+    heading.emplace_back("paper: means");
+    heading.emplace_back("difference");
+  }
+  print_table(heading, rows);
   std::printf("\n");
 }
 
@@ -60,18 +71,19 @@ void run(Arguments args) {
   args.pairing.method_b = args.methods[1];
   if (args.pratt) args.comparison.test.zeros = study::ZeroDifferences::ranked;
   if (args.percentile) args.comparison.bootstrap.kind = study::BootstrapKind::percentile;
-  Json groups = Json::array();
-  for (const PairedGroup& group : pair_rows(table, args.pairing, name)) {
-    const auto comparisons = study::compare(group.measures, args.comparison);
-    if (args.json)
-      groups.push_back(to_json(group, comparisons));
-    else
-      print_group(group, comparisons, args);
+  const std::string &a = args.methods[0], &b = args.methods[1];
+  const std::vector<PairedGroup> groups = pair_rows(table, args.pairing, name);
+  std::vector<std::vector<study::Comparison>> comparisons;
+  AgreementCount agreement;
+  for (const PairedGroup& group : groups) {
+    comparisons.push_back(study::compare(group.measures, args.comparison));
+    agreement += count_agreement(a, b, group, comparisons.back());
+    if (!args.json) print_group(group, comparisons.back(), args);
   }
   if (args.json)
-    std::printf(
-        "%s\n",
-        Json{{"a", args.methods[0]}, {"b", args.methods[1]}, {"groups", groups}}.dump(2).c_str());
+    std::printf("%s\n", to_json(a, b, groups, comparisons).dump(2).c_str());
+  else if (agreement.rows > 0)
+    std::printf("Beside the paper's table: %s.\n", agreement.text().c_str());
 }
 
 }  // namespace

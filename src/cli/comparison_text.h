@@ -18,8 +18,10 @@ std::string probability(double p);
 
 /// null for what is not a number, which JSON has not.
 nlohmann::ordered_json json_number(double value);
-/// A group of pairs with its comparisons, for programs.
-nlohmann::ordered_json to_json(const PairedGroup& group,
-                               const std::vector<study::Comparison>& comparisons);
+/// Groups of pairs of two methods with their comparisons, for programs; beside them the paper's
+/// figures, where it has some, and what agrees with them.
+nlohmann::ordered_json to_json(const std::string& a, const std::string& b,
+                               const std::vector<PairedGroup>& groups,
+                               const std::vector<std::vector<study::Comparison>>& comparisons);
 
 }  // namespace mimicry::cli

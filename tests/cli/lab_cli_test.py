@@ -95,6 +95,27 @@ class Compare(Folder):
               ["groups"]] for f in (rows, shuffled)]
         self.assertEqual(z[0], z[1])
 
+    def test_says_what_agrees_with_the_paper(self):
+        rows = ["method,curve,task,K_E,T_c,nonsense"]
+        for i in range(40):
+            rows += [f"0,{i},tracing,{280 + i},1.05,1", f"1,{i},tracing,{100 + i / 2},1.0,{i}"]
+        file = self.write("rows.csv", "\n".join(rows) + "\n")
+        # There is one task only: no group is called by it, and nothing is set beside the paper.
+        self.assertNotIn("paper", run("compare", file, "-m", "0,1").stdout)
+        rows += ["0,1,re-creating,254,1,1", "1,1,re-creating,155,1.1,1"]
+        file = self.write("rows.csv", "\n".join(rows) + "\n")
+        done = run("compare", file, "-m", "0,1", "--measures", "K_E,T_c,nonsense").stdout
+        first = {line.split()[0]: line.split()[-2:] for line in done.split("task tracing")[1]
+                 .split("\n\n")[0].splitlines() if line.startswith(("K_E", "T_c"))}
+        self.assertEqual(first, {"K_E": ["no", "yes"], "T_c": ["yes", "no"]})
+        self.assertIn("both means within 25 % of the paper's in 3 of 4 rows", done)
+        data = json.loads(run("compare", file, "-m", "0,1", "--json").stdout)
+        self.assertEqual(data["agreement"], {"rows": 4, "means": 3, "differences": 1})
+        agrees = data["groups"][1]["measures"][0]["paper"]["agrees"]
+        self.assertEqual(agrees, {"a": True, "b": False, "means": False, "sign": True,
+                                  "significance": True, "difference": True})
+        self.assertNotIn("agreement", json.loads(run("compare", file, "-m", "1,0", "--json").stdout))
+
     def test_what_failed_is_left_out(self):
         rows = self.write("r.csv", "method,curve,D_ep_mm,short,rejected\n"
                           "0,0,1,0,\n1,0,2,0,\n0,1,1,1,\n1,1,5,0,\n0,2,,0,empty stroke\n1,2,3,0,\n"

@@ -84,8 +84,10 @@ class Report(unittest.TestCase):
         _, page = self.report("--gallery", "0")
         ours = data_of(page)["comparisons"]
         self.assertEqual([(c["a"], c["b"]) for c in ours], [("spraycan", "mimicry")])
-        theirs = json.loads(run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500",
-                                "--without", "shape=0", "--json").stdout)["groups"]
+        same = json.loads(run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500",
+                              "--without", "shape=0", "--json").stdout)
+        theirs = same["groups"]
+        self.assertEqual(ours[0]["agreement"], same["agreement"])
         self.assertEqual([g["group"] for g in ours[0]["groups"]],
                          ["task tracing", "task re-creating", "all"])
         by_group = {g["group"]: g for g in theirs}
@@ -105,9 +107,31 @@ class Report(unittest.TestCase):
                     self.assertLessEqual(abs(float(text) - measure[side][value]),
                                          1.0001 * half_a_digit)
             self.assertAlmostEqual(float(line[3].replace("\u2212", "-")), measure["z"], delta=0.0051)
-        self.assertEqual(cells[0][-4:], ["2.31 ± 2.64", "1.13 ± 1.11", "8.36", "<.001"])
-        self.assertEqual(cells[11][-4:], ["0.75 ± 0.65", "1.12 ± 11.51", "0.55", ">.05"])
+        plain = [[c.rstrip(" ✓✗") for c in line] for line in cells]
+        self.assertEqual(plain[0][-4:], ["2.31 ± 2.64", "1.13 ± 1.11", "8.36", "<.001"])
+        self.assertEqual(plain[11][-4:], ["0.75 ± 0.65", "1.12 ± 11.51", "0.55", ">.05"])
         self.assertEqual(cells[21][-1], "")
+        # What agrees with the paper, by the rule as a reader would apply it to the table.
+        count = {"rows": 0, "means": 0, "differences": 0}
+        measures = [m for g in ours[0]["groups"][:2] for m in g["measures"]]
+        for line, measure in zip(cells, measures):
+            near = [abs(measure[side]["mean"] - float(line[at].split(" ± ")[0])) <=
+                    0.25 * float(line[at].split(" ± ")[0]) for side, at in (("a", -4), ("b", -3))]
+            z = float(line[-2].replace("\u2212", "-"))
+            found = not line[-1].startswith(">")
+            difference = (measure["p"] < 0.05) == found and (not found or measure["z"] * z > 0)
+            self.assertEqual([c[-1] for c in (line[-4], line[-3], line[-1])],
+                             ["✓" if yes else "✗" for yes in (*near, difference)], line)
+            self.assertEqual(measure["paper"]["agrees"]["means"], all(near))
+            self.assertEqual(measure["paper"]["agrees"]["difference"], difference)
+            self.assertEqual(measure["paper"]["z"], z)
+            count["rows"] += 1
+            count["means"] += all(near)
+            count["differences"] += difference
+        self.assertEqual(ours[0]["agreement"], count)
+        self.assertTrue(0 < count["means"] < 20 and 0 < count["differences"] < 20, count)
+        self.assertIn(f"in {count['means']} of 20 rows", page)
+        self.assertNotIn("paper", by_group["all"]["measures"][0])
         for line in table.splitlines():
             if line.startswith("<tr><td"):
                 p = re.findall("<td.*?</td>", line)[4]

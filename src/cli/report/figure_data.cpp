@@ -7,7 +7,7 @@
 #include <mimicry/render/palette.h>
 
 #include "cli/comparison_text.h"
-#include "cli/report/paper.h"
+#include "cli/report/measure_text.h"
 
 namespace mimicry::cli {
 namespace {
@@ -79,17 +79,15 @@ Json figure_data(const Summary& summary) {
   for (const std::string& measure : summary.measures)
     measures.push_back(
         {{"id", measure},
-         {"title", paper_measure(measure)->title},
+         {"title", measure_text(measure)->title},
          {"positive", positive(summary.by_task, measure) && positive(summary.by_shape, measure)}});
   for (const Box& box : summary.by_task) by_task.push_back(to_json(box));
   for (const Box& box : summary.by_shape) by_shape.push_back(to_json(box));
   for (const MethodPair& pair : summary.pairs) {
-    Json plots = Json::array(), groups = Json::array();
+    Json plots = Json::array();
     for (const ScatterPlot& plot : pair.scatter) plots.push_back(to_json(plot));
     scatter.push_back({{"id", scatter_id(pair)}, {"a", pair.a}, {"b", pair.b}, {"plots", plots}});
-    for (std::size_t g = 0; g < pair.groups.size(); ++g)
-      groups.push_back(cli::to_json(pair.groups[g], pair.comparisons[g]));
-    comparisons.push_back({{"a", pair.a}, {"b", pair.b}, {"groups", groups}});
+    comparisons.push_back(cli::to_json(pair.a, pair.b, pair.groups, pair.comparisons));
   }
   return {{"methods", methods},   {"tasks", summary.tasks},    {"shapes", summary.shapes},
           {"measures", measures}, {"by_task", by_task},        {"by_shape", by_shape},

@@ -4,11 +4,12 @@
 
 #include "cli/comparison_text.h"
 #include "cli/console.h"
+#include "cli/paper_agreement.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
 #include "cli/report/figure_data.h"
+#include "cli/report/measure_text.h"
 #include "cli/report/page_style.h"
-#include "cli/report/paper.h"
 
 namespace mimicry::cli {
 namespace {
@@ -89,28 +90,36 @@ std::string group_title(const std::string& name) {
   return title == "all" ? "All strokes" : escaped(title);
 }
 
-const PaperFigure* paper_figure(const PaperMeasure& measure, const MethodPair& pair,
-                                const std::string& group) {
-  if (pair.a != "spraycan" || pair.b != "mimicry") return nullptr;
-  if (group == "task tracing") return &measure.tracing;
-  return group == "task re-creating" ? &measure.re_creating : nullptr;
+// Not by colour alone.
+std::string mark(bool agrees, const std::string& what) {
+  return std::string(" <span class=\"") + (agrees ? "agrees" : "differs") + "\" title=\"" + what +
+         (agrees ? "\">✓" : "\">✗") + "</span>";
 }
 
-std::string paper_cells(const PaperFigure* figure) {
-  const auto paper = [](const std::string& text) { return tag("td class=\"paper\"", text); };
+std::string paper_cells(const study::PaperFigure* paper, const study::Comparison& ours) {
+  const auto in_cell = [](const std::string& text) { return tag("td class=\"paper\"", text); };
+  if (paper == nullptr) return in_cell("") + in_cell("") + in_cell("") + in_cell("");
+  const study::Agreement agreement = study::agreement(ours, *paper);
   // Its own digits.
   const auto mean = [](double value, double deviation) {
     return fixed(value, value >= 100 ? 0 : 2) + " ± " + fixed(deviation, value >= 100 ? 0 : 2);
   };
-  if (figure == nullptr) return paper("") + paper("") + paper("") + paper("");
-  return paper(mean(figure->spraycan, figure->spraycan_sd)) +
-         paper(mean(figure->mimicry, figure->mimicry_sd)) + paper(shown(fixed(figure->z, 2))) +
-         paper(escaped(std::string(figure->p)));
+  const auto near = [](bool agrees) {
+    return mark(agrees, std::string("our mean is ") + (agrees ? "within" : "more than") + " 25 %" +
+                            (agrees ? "" : " off"));
+  };
+  const bool difference = agreement.difference(*paper);
+  return in_cell(mean(paper->spraycan, paper->spraycan_deviation) + near(agreement.spraycan_mean)) +
+         in_cell(mean(paper->mimicry, paper->mimicry_deviation) + near(agreement.mimicry_mean)) +
+         in_cell(shown(fixed(paper->z, 2))) +
+         in_cell(escaped(std::string(paper->p)) +
+                 mark(difference, difference ? "our difference has its sign and significance"
+                                             : "our difference has another sign or significance"));
 }
 
 std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
                            const std::string& group, bool with_paper) {
-  const PaperMeasure& measure = *paper_measure(c.name);
+  const MeasureText& measure = *measure_text(c.name);
   const bool significantly = c.pairs > 0 && c.test.p() < 0.05;
   const auto strong = [significantly](const std::string& text) {
     return significantly ? tag("b", text) : text;
@@ -125,14 +134,18 @@ std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
   html += cell(shown(fixed(c.test.effect_r, 2)));
   html +=
       cell(shown(significant(c.difference.low)) + " to " + shown(significant(c.difference.high)));
-  if (with_paper) html += paper_cells(paper_figure(measure, pair, group));
+  if (with_paper) html += paper_cells(paper_figure(pair.a, pair.b, group, c.name), c);
   return tag("tr", html) + "\n";
 }
 
 std::string comparison_table(const MethodPair& pair, double level) {
-  bool with_paper = false;
-  for (const PairedGroup& group : pair.groups)
-    with_paper = with_paper || paper_figure(paper_table().front(), pair, group.name) != nullptr;
+  std::vector<AgreementCount> agreements;
+  AgreementCount all;
+  for (std::size_t g = 0; g < pair.groups.size(); ++g) {
+    agreements.push_back(count_agreement(pair.a, pair.b, pair.groups[g], pair.comparisons[g]));
+    all += agreements.back();
+  }
+  const bool with_paper = all.rows > 0;
   std::string head = "<th></th><th>" + method_label(pair.a) + "</th><th>" + method_label(pair.b) +
                      "</th><th>z</th><th>p</th><th>p, Holm</th><th>r</th><th>difference, " +
                      fixed(100 * level, 0) + " %</th>";
@@ -150,20 +163,29 @@ std::string comparison_table(const MethodPair& pair, double level) {
     std::string title = tag("b", group_title(group.name)) + ": " + count(group.pairs, "pair");
     if (group.failed > 0) title += ", " + std::to_string(group.failed) + " left out";
     if (group.unpaired > 0) title += ", " + std::to_string(group.unpaired) + " without a partner";
-    std::string paper_pairs;
-    if (with_paper && paper_figure(paper_table().front(), pair, group.name) != nullptr)
-      paper_pairs =
-          count(static_cast<std::size_t>(group.name == "task tracing" ? kPaperTracingPairs
-                                                                      : kPaperReCreatingPairs),
-                "pair");
+    std::string paper;
+    if (const AgreementCount& agree = agreements[g]; agree.rows > 0)
+      paper = count(static_cast<std::size_t>(group.name == "task tracing"
+                                                 ? study::kPaperTracingPairs
+                                                 : study::kPaperReCreatingPairs),
+                    "pair") +
+              "; agree: means " + std::to_string(agree.means) + ", differences " +
+              std::to_string(agree.differences) + " of " + std::to_string(agree.rows);
     body += "<tr class=\"head\"><td colspan=\"8\">" + title + "</td>" +
-            (with_paper ? "<td colspan=\"4\" class=\"paper\">" + paper_pairs + "</td>" : "") +
-            "</tr>\n";
+            (with_paper ? "<td colspan=\"4\" class=\"paper\">" + paper + "</td>" : "") + "</tr>\n";
     for (const study::Comparison& c : pair.comparisons[g])
       body += comparison_row(c, pair, group.name, with_paper);
   }
   return "<div class=\"wide\"><table class=\"comparison\"><thead>" + above + tag("tr", head) +
-         "</thead><tbody>\n" + body + "</tbody></table></div>\n";
+         "</thead><tbody>\n" + body + "</tbody></table></div>\n" +
+         (with_paper
+              ? tag("p id=\"agreement\"",
+                    "Beside the paper's table: " + all.text() +
+                        ". Ticks: our mean is within 25 % of the one they stand at; at p, the "
+                        "difference has the same sign and, at .05, significance (only the "
+                        "latter where the paper found no difference).") +
+                    "\n"
+              : "");
 }
 
 std::string plot(const std::string& id, const std::string& label) {
@@ -294,7 +316,7 @@ std::string rejected_list(const Summary& summary, const std::vector<RejectedStro
 
 std::string pictures(const Summary& summary, const Gallery& gallery,
                      const GalleryOptions& options) {
-  const PaperMeasure* measure = paper_measure(options.measure);
+  const MeasureText* measure = measure_text(options.measure);
   const std::string name = measure != nullptr ? std::string(measure->html) : options.measure;
   const std::string unit = measure != nullptr ? " " + std::string(measure->unit) : "";
   std::string html =

@@ -20,6 +20,8 @@ td.reason { white-space: normal; min-width: 16rem; }
 tbody tr:hover { background: #f4f7fb; }
 tr.head td { padding-top: .9rem; border-bottom: 1px solid #bbb; text-align: left; }
 .paper { background: #f6f4ee; color: #555; }
+.agrees { color: #1b6e2b; }
+.differs { color: #a32114; }
 .unit { color: #777; }
 .swatch { display: inline-block; width: .75em; height: .75em; margin-right: .4em; }
 .wide { overflow-x: auto; }
