@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/parallel.h>
+#include <mimicry/base/ordered_work.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/csv.h>
 #include <mimicry/technique/technique.h>
@@ -54,7 +54,7 @@ nlohmann::ordered_json settings_of(const Arguments& args) {
           {"bytes", bytes},
           {"techniques", args.techniques},
           {"shapes", absolute(args.shapes)},
-          {"mesh", args.mesh},
+          {"mesh", fs::exists(args.mesh) ? absolute(args.mesh) : args.mesh},
           {"targets", absolute(args.targets)},
           {"misses", args.misses}};
 }
@@ -68,13 +68,15 @@ void run(const Arguments& args, int& status) {
   options.mesh = args.mesh;
   options.misses =
       args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
-  Executor executor(thread_count(args.threads));
   const Replayer replayer(options);
   ReplaySource source(args.strokes);
   const nlohmann::ordered_json settings = settings_of(args);
   RowJournal journal(args.out, settings.dump(), io::csv_heading(replay_columns()));
+  // Where it lies, so that the report of a study that was moved as a whole finds its strokes.
+  nlohmann::ordered_json kept = settings;
+  kept["folder"] = std::filesystem::absolute(args.out).lexically_normal().string();
   files::write_file_atomically((std::filesystem::path(args.out) / "replay.json").string(),
-                               settings.dump(2) + "\n");
+                               kept.dump(2) + "\n");
 
   // Jobs that were finished before the interruption.
   std::size_t job = 0;
@@ -85,30 +87,18 @@ void run(const Arguments& args, int& status) {
                  args.out.c_str(), journal.rows());
 
   ProgressLine progress("replaying");
-  // Large enough that no thread waits long for the last job of a batch.
-  const std::size_t batch_jobs = 64 * static_cast<std::size_t>(executor.threads());
-  for (bool more = true; more;) {
-    std::vector<ReplayJob> batch;
-    std::size_t weight = 0;
-    while (weight < batch_jobs) {
-      std::optional<ReplayJob> next = source.next();
-      more = next.has_value();
-      if (!more) break;
-      weight += next->weight();
-      batch.push_back(std::move(*next));
-    }
-    std::vector<ReplayRows> rows(batch.size());
-    executor.for_chunks(batch.size(), 1, [&](std::size_t i, std::size_t, int) {
-      rows[i] = replayer.run(batch[i]);
-      batch[i] = {};  // its text is not needed any more
-    });
-    for (const ReplayRows& r : rows) {
-      for (const std::string& reason : r.reasons)
-        std::fprintf(stderr, "mimicry: rejected: %s\n", reason.c_str());
-      journal.append(r.csv, r.json_lines, r.rows, r.rejected);
-    }
-    progress.update(source.bytes_read(), source.bytes());
-  }
+  const int threads = thread_count(args.threads);
+  // Results are small; a slow stroke must not make the others wait.
+  const std::size_t most_ahead = 64 * static_cast<std::size_t>(threads);
+  work_in_order(
+      threads, most_ahead, [&] { return source.next(); },
+      [&](const ReplayJob& next) { return replayer.run(next); },
+      [&](const ReplayRows& rows) {
+        for (const std::string& reason : rows.reasons)
+          std::fprintf(stderr, "mimicry: rejected: %s\n", reason.c_str());
+        journal.append(rows.csv, rows.json_lines, rows.rows, rows.rejected);
+        progress.update(source.bytes_read(), source.bytes());
+      });
   journal.finish();
   std::printf("%s: %zu rows, %zu of them rejected\n", journal.csv_path().c_str(), journal.rows(),
               journal.rejected());

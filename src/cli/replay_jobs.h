@@ -28,9 +28,6 @@ struct ReplayJob {
   std::shared_ptr<const Participant> participant;
   Index method = kNone, shape = kNone;
   std::string problem;  ///< the source could not be opened
-
-  /// About how many strokes it has.
-  std::size_t weight() const { return participant ? 12 : 1; }
 };
 
 /// The jobs of strokes files and participants' folders, in the order given. Holds one block of a

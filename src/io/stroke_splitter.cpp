@@ -1,3 +1,5 @@
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include <mimicry/io/stroke_splitter.h>
@@ -8,6 +10,14 @@ namespace {
 constexpr std::size_t kBlockBytes = 1 << 16;
 constexpr int kEnd = -1;
 
+// What opens, closes or quotes: nearly no byte of a stroke.
+constexpr std::array<bool, 256> make_marks() {
+  std::array<bool, 256> marks{};
+  for (const char c : std::string_view("\"{}[]")) marks[static_cast<unsigned char>(c)] = true;
+  return marks;
+}
+constexpr std::array<bool, 256> kIsMark = make_marks();
+
 bool is_space(int c) {
   return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
@@ -16,14 +26,16 @@ bool is_space(int c) {
 
 StrokeSplitter::StrokeSplitter(Source source) : source_(std::move(source)) {}
 
+bool StrokeSplitter::fill() {
+  if (at_ < block_.size()) return true;
+  block_.resize(kBlockBytes);
+  block_.resize(source_(block_.data(), block_.size()));
+  at_ = 0;
+  return !block_.empty();
+}
+
 int StrokeSplitter::get() {
-  if (at_ == block_.size()) {
-    block_.resize(kBlockBytes);
-    block_.resize(source_(block_.data(), block_.size()));
-    at_ = 0;
-    if (block_.empty()) return kEnd;
-  }
-  return static_cast<unsigned char>(block_[at_++]);
+  return fill() ? static_cast<unsigned char>(block_[at_++]) : kEnd;
 }
 
 std::optional<std::string> StrokeSplitter::next() {
@@ -65,29 +77,38 @@ std::optional<std::string> StrokeSplitter::next() {
   std::string part = head_;
   depth = 0;
   bool is_empty = true;
-  for (int c = get();; c = get()) {
-    if (c == kEnd) {  // cut off
-      done_ = true;
-      return part;
+  while (fill()) {
+    const char* const begin = block_.data() + at_;
+    const char* const end = block_.data() + block_.size();
+    for (const char* p = begin; p != end; ++p) {
+      const char c = *p;
+      if (in_string) {
+        if (!escaped && c == '"') in_string = false;
+        escaped = !escaped && c == '\\';
+        continue;
+      }
+      if (depth > 0 && !kIsMark[static_cast<unsigned char>(c)]) continue;
+      if (depth == 0 && (c == ',' || c == ']')) {
+        part.append(begin, p);
+        at_ += static_cast<std::size_t>(p + 1 - begin);
+        done_ = c == ']';
+        if (!done_ || !is_empty) return part + "]}";
+        return std::nullopt;
+      }
+      is_empty = is_empty && is_space(c);
+      if (c == '"') {
+        in_string = true;
+      } else if (c == '{' || c == '[') {
+        ++depth;
+      } else if (c == '}' || c == ']') {
+        --depth;
+      }
     }
-    if (!in_string && depth == 0 && (c == ',' || c == ']')) {
-      done_ = c == ']';
-      if (!done_ || !is_empty) return part + "]}";
-      return std::nullopt;
-    }
-    part += static_cast<char>(c);
-    is_empty = is_empty && is_space(c);
-    if (in_string) {
-      if (!escaped && c == '"') in_string = false;
-      escaped = !escaped && c == '\\';
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      ++depth;
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
+    part.append(begin, end);
+    at_ = block_.size();
   }
+  done_ = true;  // cut off
+  return part;
 }
 
 }  // namespace mimicry::io

@@ -21,6 +21,7 @@ class StrokeSplitter {
   std::optional<std::string> next();
 
  private:
+  bool fill();
   int get();
 
   Source source_;
