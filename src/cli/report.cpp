@@ -15,6 +15,7 @@
 #include "cli/report/figure_files.h"
 #include "cli/report/gallery.h"
 #include "cli/report/page.h"
+#include "cli/report/replay_sources.h"
 
 namespace mimicry::cli {
 namespace {
@@ -78,6 +79,8 @@ void run(Arguments args) {
   if (args.gallery.count > 0 && !rows.has(args.gallery.measure))
     throw Error(ErrorKind::invalid_input,
                 "--gallery-by: " + args.rows + " has no column '" + args.gallery.measure + "'");
+  if (args.gallery.count > 0)
+    add_replay_sources(rows_file.parent_path().string(), args.gallery.sources);
   if (args.gallery.sources.recordings.empty()) args.gallery.sources.recordings = args.folder;
   const Gallery gallery = make_gallery(rows, summary, args.gallery);
 
@@ -131,11 +134,14 @@ void add_report(CLI::App& app, int&) {
   command->add_option("--gallery-by", args->gallery.measure, "The column that says which")
       ->capture_default_str();
   command->add_option("--recordings", args->gallery.sources.recordings,
-                      "Folder of the participants' folders or strokes files (default: the same)");
-  command->add_option("--shapes", args->gallery.sources.shapes,
-                      "Folder of the shapes' meshes (default: built-in shapes)");
+                      "Folder of the participants' folders or strokes files (default: where replay "
+                      "had them from, or the same folder)");
+  command->add_option(
+      "--shapes", args->gallery.sources.shapes,
+      "Folder of the shapes' meshes (default: as in the replay, or built-in shapes)");
   command->add_option("--targets", args->gallery.sources.targets,
-                      "The file of target curves, to show them in the pictures");
+                      "The file of target curves, to show them in the pictures (default: as in the "
+                      "replay)");
   command
       ->add_option("--resamples", args->summary.comparison.bootstrap.resamples, "Of the intervals")
       ->check(CLI::Range(100, 1000000))

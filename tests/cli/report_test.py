@@ -311,6 +311,55 @@ class Report(unittest.TestCase):
         self.assertRegex(table, "p2</td>.*mimicry.*torus.*<td>4</td>")
         self.assertIn('id="jumps"', page)
 
+    def test_replayed_strokes_are_found(self):
+        """In their place, in a study that was moved, and not where they are gone."""
+        study = os.path.join(self.folder, "study")
+        os.makedirs(os.path.join(study, "recorded"))
+        strokes = os.path.join(study, "recorded", "strokes.json")
+        run("simulate", "shape:cube:20", "--rate", "30", "-o", strokes)
+        run("replay", "--strokes", strokes, "--mesh", "shape:cube:20", "-t",
+            "spraycan,anchored-closest", "-o", os.path.join(study, "replay"))
+
+        def pictures(folder):
+            done = run("report", folder, "--gallery", "1", "--resamples", "500",
+                       env={"PATH": self.folder})
+            page = read(os.path.join(folder, "report.html"))
+            return re.findall('src="data:image/png;base64,([^"]*)"', page), page, done.stderr
+
+        images, page, _ = pictures(os.path.join(study, "replay"))
+        self.assertEqual(len(images), 4)
+        self.assertNotIn("without a picture", page)
+        moved = os.path.join(self.folder, "moved")
+        os.rename(study, moved)
+        self.assertEqual(pictures(os.path.join(moved, "replay"))[0], images)
+        os.remove(os.path.join(moved, "recorded", "strokes.json"))
+        images, page, said = pictures(os.path.join(moved, "replay"))
+        self.assertEqual(images, [])
+        self.assertIn(strokes + ": is no longer where it was replayed from", said)
+        self.assertIn("4 strokes without a picture", page)
+        with open(os.path.join(moved, "replay", "replay.json"), "w", encoding="utf-8") as file:
+            file.write("{}")
+        self.assertIn("is no settings of mimicry replay",
+                      run("report", os.path.join(moved, "replay"), expect=3).stderr)
+
+    def test_replayed_participants_are_found(self):
+        os.makedirs(os.path.join(self.folder, "shapes"))
+        shape = os.path.join(self.folder, "shapes", "cube.obj")
+        run("shapes", "cube", "--resolution", "10", "--out", shape)
+        targets = os.path.join(self.folder, "targets.json")
+        run("targets", shape, "--count", "2", "--seed", "3", "--no-picture", "--out", targets)
+        people = os.path.join(self.folder, "people")
+        where = ("--shapes", os.path.join(self.folder, "shapes"), "--targets", targets)
+        run("participants", *where, "--count", "2", "--rate", "30", "-t",
+            "spraycan,anchored-closest", "-o", people)
+        out = os.path.join(self.folder, "again")
+        run("replay", "--strokes", os.path.join(people, "p00"), os.path.join(people, "p01"), *where,
+            "-t", "spraycan,anchored-closest", "-o", out)
+        run("report", out, "--gallery", "1", "--resamples", "500", env={"PATH": self.folder})
+        page = read(os.path.join(out, "report.html"))
+        self.assertEqual(page.count('src="data:image/png;base64,'), 4)
+        self.assertNotIn("without a picture", page)
+
     def test_no_recordings(self):
         write_rows(self.rows, participants=1)
         done, page = self.report("--gallery", "1")

@@ -12,6 +12,7 @@
 
 #include "cli/mesh_input.h"
 #include "cli/participant.h"
+#include "cli/study_shapes.h"
 #include "cli/target_curves.h"
 
 namespace mimicry::cli {
@@ -42,15 +43,28 @@ DrawnStroke DrawnStrokes::find(const StudyRow& row) {
 DrawnStrokes::Shape& DrawnStrokes::shape(const std::string& name) {
   Shape& entry = shapes_[name];
   if (!entry.target)
-    entry.target = std::make_unique<spatial::Target>(
-        make_target(load_mesh(sources_.shapes.empty() ? "shape:" + name
-                                                      : find_mesh_file(sources_.shapes, name)),
-                    false));
+    entry.target = std::make_unique<spatial::Target>(make_target(
+        load_mesh(sources_.mesh.empty() ? mesh_spec(sources_.shapes, name) : sources_.mesh),
+        false));
   return entry;
 }
 
+// Of the participant's folder, or the strokes file.
+std::string DrawnStrokes::path_of(const StudyRow& row) const {
+  const auto known = sources_.files.find(row.participant);
+  if (known == sources_.files.end())
+    return (fs::path(sources_.recordings) / row.participant).string();
+  if (known->second.empty())
+    fail("several strokes that were replayed are called " + row.participant +
+         "; say which with --recordings");
+  std::error_code none;
+  if (!fs::exists(known->second, none))
+    fail(known->second + ": is no longer where it was replayed from; say where with --recordings");
+  return known->second;
+}
+
 const study::RecordedStroke& DrawnStrokes::recording(const StudyRow& row, const std::string& file) {
-  const std::string path = (fs::path(sources_.recordings) / row.participant / file).string();
+  const std::string path = (fs::path(path_of(row)) / file).string();
   auto found = recordings_.find(path);
   if (found == recordings_.end())
     found = recordings_.emplace(path, io::read_recording(files::read_file(path), path)).first;
@@ -61,7 +75,7 @@ const study::RecordedStroke& DrawnStrokes::recording(const StudyRow& row, const 
 }
 
 const stroke::Stroke& DrawnStrokes::stroke_of_file(const StudyRow& row) {
-  const std::string path = (fs::path(sources_.recordings) / row.participant).string();
+  const std::string path = path_of(row);
   auto found = files_.find(path);
   if (found == files_.end())
     found = files_.emplace(path, io::read_strokes(files::read_file(path), path)).first;
@@ -102,8 +116,7 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   DrawnStroke drawn;
   // Strokes of a participant are called "0_3.json#7".
   const std::size_t hash = row.stroke.find(".json#");
-  const bool of_folder = hash != std::string::npos &&
-                         fs::is_directory(fs::path(sources_.recordings) / row.participant);
+  const bool of_folder = hash != std::string::npos && fs::is_directory(path_of(row));
   drawn.stroke = of_folder ? study::stroke_of(recording(row, row.stroke.substr(0, hash + 5)))
                            : stroke_of_file(row);
   Shape& on = shape(row.shape);
@@ -113,6 +126,7 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   auto& prepared = info.needs_bake ? on.baked : on.plain;
   if (!prepared) prepared = std::make_unique<PreparedCanvas>(*on.target, only);
   session::SessionOptions options;
+  options.misses = sources_.misses;
   options.expected_frames = drawn.stroke.frames.size();
   session::StrokeSession session(prepared->canvas(), info, options);
   session.begin(drawn.stroke.model_to_world);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mimicry/curve/projected_curve.h>
+#include <mimicry/session/stroke_session.h>
 #include <mimicry/spatial/target.h>
 #include <mimicry/study/recording.h>
 #include <mimicry/study/target_set.h>
@@ -19,8 +20,12 @@ namespace mimicry::cli {
 /// Where the strokes of a table of rows are.
 struct StrokeSources {
   std::string recordings;  ///< folder of the participants' folders, or of the strokes files
-  std::string shapes;      ///< folder of the meshes; empty: built-in shapes
-  std::string targets;     ///< file of target curves; empty: not known
+  /// Where those of these names are; others are in `recordings`. An empty path: there are several.
+  std::map<std::string, std::string> files;
+  std::string shapes;   ///< folder of the meshes; empty: built-in shapes
+  std::string mesh;     ///< what all strokes were drawn on; empty: the rows' shapes
+  std::string targets;  ///< file of target curves; empty: not known
+  session::MissPolicy misses = session::MissPolicy::connect;  ///< of strokes that are drawn again
 };
 
 /// A stroke of the table: the pen's way, what came of it, and what was meant, which may be empty.
@@ -46,6 +51,7 @@ class DrawnStrokes {
     std::unique_ptr<PreparedCanvas> plain, baked;
   };
   Shape& shape(const std::string& name);
+  std::string path_of(const StudyRow& row) const;
   DrawnStroke recorded(const StudyRow& row);
   DrawnStroke replayed(const StudyRow& row);
   const study::RecordedStroke& recording(const StudyRow& row, const std::string& file);
