@@ -53,6 +53,68 @@ void require_faces(const spatial::Target& target, const stroke::Intention& curve
                       "; pass the mesh that the curve was made on");
 }
 
+// Where a person stands who has walked to where the curve is seen best, before drawing: within an
+// angle of its mean normal, and not below the shape.
+Vec3 standing_place(const spatial::Target& target, const stroke::Intention& curve,
+                    const Similarity& place, const Vec3& viewer, double most_rad) {
+  constexpr double kLowest = -0.3;
+  Vec3 mean = Vec3::Zero();
+  for (const SurfacePoint& p : curve.points) mean += place.direction(target.normal(p));
+  mean /= static_cast<double>(curve.points.size());
+  const Vec3 from = viewer.normalized();
+  const double angle = std::atan2(from.cross(mean).norm(), from.dot(mean));
+  const Vec3 axis = from.cross(mean);
+  // Around a shape there is no best side.
+  if (mean.norm() < 0.2 || angle <= most_rad || axis.norm() < 1e-9) return from;
+  Vec3 seen = Eigen::AngleAxisd(angle - most_rad, axis.normalized()) * from;
+  seen.y() = std::max(seen.y(), kLowest);
+  return seen.norm() > 1e-6 ? Vec3(seen.normalized()) : from;
+}
+
+// Of the rays from the hand to the curve, those that meet another part of the shape first: in all
+// of a steady stroke, or at its first point only.
+double blocked_share(const spatial::Target& target, const stroke::Intention& curve,
+                     const Similarity& place, SimulationOptions hand, Steering steering) {
+  constexpr double kSamePart_m = 0.01;
+  hand.rate_hz = 20;
+  hand.drift_m = hand.tremor_m = hand.noise_m = hand.wobble_rad = 0;
+  hand.turn_tremor_rad = hand.turn_noise_rad = hand.start_error_m = 0;
+  const stroke::Stroke steady = simulate(target, curve, place, hand, 1);
+  std::vector<Vec3> points;
+  for (const SurfacePoint& p : curve.points) points.push_back(place.point(target.position(p)));
+  const std::size_t frames = steering == Steering::aims ? steady.frames.size() : 1;
+  std::size_t blocked = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const stroke::Pose& pen = steady.frames[f].controller;
+    const auto hit = target.first_hit(place.inverse_point(pen.position),
+                                      place.inverse_direction(-(pen.orientation * Vec3::UnitZ())));
+    const auto is_near = [&](const Vec3& x) {
+      return (x - place.point(hit->position)).norm() < kSamePart_m;
+    };
+    if (!hit || std::none_of(points.begin(), points.end(), is_near)) ++blocked;
+  }
+  return static_cast<double>(blocked) / static_cast<double>(frames);
+}
+
+// People bring the hand closer until nothing stands between it and the curve.
+double seen_from(const spatial::Target& target, const stroke::Intention& curve,
+                 const Similarity& place, SimulationOptions hand, Steering steering,
+                 double distance_m) {
+  constexpr double kCloser = 0.65;
+  constexpr int kTries = 5;
+  double best = distance_m, least = 2;
+  for (int i = 0; i < kTries; ++i) {
+    hand.mean_distance_m = distance_m * std::pow(kCloser, i);
+    const double share = blocked_share(target, curve, place, hand, steering);
+    if (share < least) {
+      least = share;
+      best = hand.mean_distance_m;
+    }
+    if (least < 0.005) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 Participant participant(const PopulationOptions& options, std::uint64_t seed, Index number) {
@@ -73,6 +135,9 @@ Participant participant(const PopulationOptions& options, std::uint64_t seed, In
   hand.head_follow = draw(options.head_follow, random);
   hand.head_turn = options.head_turn;
   hand.facing_rad = options.facing_rad;
+  hand.most_head_turn_rad_per_s = options.most_head_turn_rad_per_s;
+  hand.most_corrected_m = options.most_corrected_m;
+  hand.slant_rad = options.slant_rad;
   hand.start_error_m = options.start_error_m;
   return person;
 }
@@ -168,10 +233,11 @@ stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention
     hand.wrist_part = options.aiming_wrist;
     hand.facing_rad = options.aiming_facing_rad;
     hand.head_follow *= options.aiming_head;
-    hand.copy = HandCopy::automatic;
+    hand.copy = HandCopy::turned;
+    hand.slant_rad = options.aiming_slant_rad;
   } else {
     hand.wobble_rad *= options.moving_wobble;
-    hand.copy = HandCopy::translated;
+    hand.copy = HandCopy::placed;
     duration *= options.moving_pace;
   }
   hand.head_follow = std::min(1.0, hand.head_follow);
@@ -181,6 +247,9 @@ stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention
       task == TaskKind::tracing
           ? curve
           : recalled(target, curve, keypoints, options.recalled_error, mixed(seed, 1));
+  hand.viewer = standing_place(target, curve, model_to_world, hand.viewer, options.standing_rad);
+  hand.mean_distance_m =
+      seen_from(target, meant, model_to_world, hand, steering, hand.mean_distance_m);
   stroke::Stroke stroke = simulate_closed_loop(target, meant, model_to_world, hand, seed, ink);
   stroke.intended = curve;
   return stroke;

@@ -69,6 +69,8 @@ void check(const SimulationOptions& o) {
                                     {o.feedback_delay_s, "feedback_delay_s"},
                                     {o.feedback_gain_per_s, "feedback_gain_per_s"},
                                     {o.most_correction_m_per_s, "most_correction_m_per_s"},
+                                    {o.most_corrected_m, "most_corrected_m"},
+                                    {o.slant_rad, "slant_rad"},
                                     {o.least_drift_hz, "least_drift_hz"},
                                     {o.most_drift_hz, "most_drift_hz"},
                                     {o.least_tremor_hz, "least_tremor_hz"},
@@ -202,18 +204,64 @@ void low_pass(std::vector<Vec3>& x, double dt, double tau) {
   for (std::size_t i = x.size() - 1; i-- > 0;) x[i] = keep * x[i + 1] + (1 - keep) * x[i];
 }
 
+// The direction, turned by as little as brings it within an angle of another one.
+Vec3 turned_within(const Vec3& direction, const Vec3& other, double most_rad) {
+  const double angle = std::atan2(direction.cross(other).norm(), direction.dot(other));
+  if (angle <= most_rad) return direction;
+  const Vec3 axis = unit_or(direction.cross(other), Vec3::UnitY());
+  return (Eigen::AngleAxisd(angle - most_rad, axis) * direction).normalized();
+}
+
 // The hand's path for any distance: base + distance * away.
 struct HandPath {
   std::vector<Vec3> base;
   std::vector<Vec3> away;
 };
 
-HandPath hand_path(const Path& path, const SimulationOptions& options) {
+// The normals of what surrounds the path, also around an edge: who aims looks at more than the
+// point.
+std::vector<Vec3> surrounding_normals(const spatial::Target& target, const Similarity& place,
+                                      const Path& path) {
+  constexpr double kAround_m = 0.015;
+  constexpr int kDirections = 8;
+  const int every = std::max(1, static_cast<int>(0.005 / path.step));
+  const int last = static_cast<int>(path.points.size()) - 1;
+  std::vector<Vec3> sparse;
+  Index hint = kNone;
+  for (int i = 0; i < last + every; i += every) {
+    const Vec3& x = path.points[at(std::min(i, last))];
+    const Vec3 n = unit_or(path.normals[at(std::min(i, last))], Vec3::UnitY());
+    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+    Vec3 sum = n;
+    for (int k = 0; k < kDirections; ++k) {
+      const double angle = kTau * k / kDirections;
+      // A little below the surface: beyond an edge the other side is closest.
+      const Vec3 y = x + kAround_m * (std::cos(angle) * u + std::sin(angle) * v - 0.5 * n);
+      const auto closest = target.closest_point(place.inverse_point(y), kInfinity, hint);
+      if (!closest) continue;
+      hint = closest->surface.face;
+      // Not the other side of something thin.
+      const Vec3 other = place.direction(target.normal(closest->surface));
+      if (other.dot(n) > -0.3) sum += other;
+    }
+    sparse.push_back(unit_or(sum, n));
+  }
+  std::vector<Vec3> normals;
+  for (int i = 0; i <= last; ++i) {
+    const auto k = at(i / every);
+    const double t = static_cast<double>(i % every) / every;
+    normals.push_back(t > 0 ? Vec3(sparse[k] + t * (sparse[k + 1] - sparse[k])) : sparse[k]);
+  }
+  return normals;
+}
+
+HandPath hand_path(const Path& path, const spatial::Target& target, const Similarity& place,
+                   const SimulationOptions& options) {
   const Vec3 viewer = options.viewer.normalized();
   Vec3 mean = Vec3::Zero();
   for (const Vec3& n : path.normals) mean += n;
   mean = unit_or(mean / static_cast<double>(path.normals.size()), viewer);
-  bool is_offset = options.copy == HandCopy::offset;
+  bool is_offset = options.copy == HandCopy::offset || options.copy == HandCopy::turned;
   if (options.copy == HandCopy::automatic)
     is_offset = std::any_of(path.normals.begin(), path.normals.end(),
                             [&mean](const Vec3& n) { return n.dot(mean) < 0; });
@@ -225,14 +273,24 @@ HandPath hand_path(const Path& path, const SimulationOptions& options) {
     for (const Vec3& x : hand.base) centre += x / static_cast<double>(hand.base.size());
     for (Vec3& x : hand.base) x += options.wrist_part * (centre - x);
   }
+  if (options.copy == HandCopy::placed)
+    mean = turned_within(mean, unit_or(path.normals.front(), mean), options.slant_rad);
   if (!is_offset) {
     hand.away.assign(path.points.size(), mean);
     return hand;
   }
   // Normals first turn smoothly, then the path that they lead to is smoothed like the base.
   constexpr double kTurn_m = 0.02;
+  constexpr double kWrist_m = 0.04;  // who turns no more than needed does it in good time
   const Ends ends = path.closed ? Ends::closed : Ends::constant;
-  hand.away = smoothed(path.normals, kTurn_m / path.step, ends);
+  const bool is_turned = options.copy == HandCopy::turned;
+  hand.away = smoothed(is_turned ? surrounding_normals(target, place, path) : path.normals,
+                       kTurn_m / path.step, ends);
+  if (is_turned) {
+    Vec3 direction = mean;
+    for (Vec3& n : hand.away) n = direction = turned_within(direction, n, options.slant_rad);
+    hand.away = smoothed(hand.away, kWrist_m / path.step, ends);
+  }
   Vec3 previous = mean;
   for (Vec3& n : hand.away) previous = n = unit_or(n, previous);
   hand.away = smoothed(hand.away, sigma, ends);
@@ -366,7 +424,7 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
       !is_finite(place.rotation))
     fail("the target's place must be finite and its scale positive");
   const Path path = resampled(target, intended, place);
-  const HandPath hand = hand_path(path, options);
+  const HandPath hand = hand_path(path, target, place, options);
 
   Random duration_random(seed, kDuration);
   const double duration =
@@ -477,7 +535,13 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
     const std::size_t i = at(f);
     const double t = f * dt;
     if (ink != nullptr && i >= delay && !errors.empty()) {
-      const Vec3& seen = errors[std::min(i - delay, errors.size() - 1)];
+      Vec3 seen = errors[std::min(i - delay, errors.size() - 1)];
+      if (seen.norm() > options.most_corrected_m) {
+        // Ink on another part of the shape: how far behind or before it is does not matter.
+        const Vec3 sight = unit_or(plan.intended[i] - heads[i], -options.viewer.normalized());
+        seen -= seen.dot(sight) * sight;
+        seen *= std::min(1.0, options.most_corrected_m / std::max(seen.norm(), 1e-9));
+      }
       const double speed = options.feedback_gain_per_s * seen.norm();
       const double allowed = std::min(speed, options.most_correction_m_per_s);
       if (speed > 0) {

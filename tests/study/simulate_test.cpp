@@ -282,6 +282,46 @@ TEST(Simulate, FeedbackRemovesAConstantError) {
   EXPECT_EQ(missing.frames.back().controller.position, open.frames.back().controller.position);
 }
 
+TEST(Simulate, ACopyTurnsOnlyBeyondItsSlant) {
+  const Scene s = scene("torus");
+  const stroke::Intention& curve = s.curves[1];
+  SimulationOptions options = steady();
+  options.copy = HandCopy::translated;
+  const stroke::Stroke translated = simulate(s.target, curve, s.place, options, 3);
+  const auto farthest = [&](HandCopy copy, double slant_rad) {
+    options.copy = copy;
+    options.slant_rad = slant_rad;
+    const stroke::Stroke stroke = simulate(s.target, curve, s.place, options, 3);
+    double most = 0;
+    for (std::size_t i = 0; i < stroke.frames.size(); ++i)
+      most = std::max(most, (stroke.frames[i].controller.position -
+                             translated.frames[i].controller.position)
+                                .norm());
+    return most;
+  };
+  EXPECT_LT(farthest(HandCopy::turned, std::numbers::pi), 1e-9);
+  EXPECT_LT(farthest(HandCopy::placed, std::numbers::pi), 1e-9);
+  EXPECT_GT(farthest(HandCopy::turned, 0.3), 0.01);
+}
+
+TEST(Simulate, InkOnAnotherPartIsNotChased) {
+  const Scene s = scene("torus");
+  SimulationOptions options = steady();
+  const stroke::Stroke open = simulate(s.target, s.curves[1], s.place, options, 2);
+  const auto moved = [&](double most_corrected_m) {
+    options.most_corrected_m = most_corrected_m;
+    const stroke::Stroke stroke = simulate_closed_loop(
+        s.target, s.curves[1], s.place, options, 2,
+        [](const stroke::Frame& f) { return Vec3(f.controller.position + Vec3(1, 0, 0)); });
+    return (stroke.frames.back().controller.position - open.frames.back().controller.position)
+        .norm();
+  };
+  const double seconds = open.frames.back().time_s;
+  EXPECT_NEAR(moved(1000), options.most_correction_m_per_s * (seconds - options.feedback_delay_s),
+              0.02);
+  EXPECT_LE(moved(0.01), options.feedback_gain_per_s * 0.01 * seconds);
+}
+
 TEST(Simulate, FrameRatesGiveTheSameMotion) {
   const Scene s = scene("torus");
   const SimulationOptions calm = steady();

@@ -30,30 +30,35 @@ struct PopulationOptions {
   Spread pace = {1.0, 0.30};                ///< of all durations; study: tau's deviation
   Spread tremor_m = {0.09e-3, 0.60};        ///< physiology: 0.05 to 0.3 mm
   Spread noise_m = {0.040e-3, 0.40};        ///< tracking: 0.02 to 0.3 mm
-  Spread turn_tremor_rad = {0.0050, 0.60};  ///< assumed; the same hand's tremor
+  Spread turn_tremor_rad = {0.0056, 0.60};  ///< assumed; the same hand's tremor
   Spread distance_m = {0.046, 0.25};        ///< study: mean 4.8 cm from hand to surface
-  Spread drift_m = {0.0006, 0.30};          ///< assumed: less than blind, the ink is watched
-  Spread wobble_rad = {0.12, 0.30};         ///< study: about 8 degrees
-  Spread gain_per_s = {4.0, 0.20};          ///< physiology: of corrections
-  Spread delay_s = {0.15, 0.12};            ///< physiology
-  Spread smoothing_m = {0.003, 0.25};       ///< assumed: less than blind
-  Spread head_follow = {0.25, 0.25};        ///< assumed
-  double head_turn = 0.28;                  ///< assumed
-  double facing_rad = 1.7;                  ///< assumed: people lean, and look at a slant
+  Spread drift_m = {0.0010, 0.30};          ///< assumed: less than blind, the ink is watched
+  Spread wobble_rad = {0.10, 0.30};    ///< study: about 8 degrees; assumed less, the ink is watched
+  Spread gain_per_s = {4.0, 0.20};     ///< physiology: of corrections
+  Spread delay_s = {0.15, 0.12};       ///< physiology
+  Spread smoothing_m = {0.003, 0.25};  ///< assumed: less than blind
+  Spread head_follow = {0.35, 0.25};   ///< assumed
+  double head_turn = 0.28;             ///< assumed
+  double standing_rad = 0.6;           ///< assumed: they walk to where the curve is seen, then draw
+  double facing_rad = 1.1;             ///< assumed: beyond this they lean around the shape
+  double most_head_turn_rad_per_s = 0.4;  ///< assumed: nobody walks fast while drawing
   // From stroke to stroke.
   double duration_s = 4.45;            ///< study: tau, of a curve of the length below
   double usual_length_m = 0.375;       ///< study: mean L_X
   double length_exponent = 0.5;        ///< assumed: longer curves are drawn faster (isochrony)
   double stroke_log_deviation = 0.20;  ///< assumed: of duration and distance
   double start_error_m = 0.4e-3;       ///< assumed: aiming at the first point with a cursor
+  double most_corrected_m = 0.015;     ///< assumed: ink on another part of the shape is let be
+  double slant_rad = 1.05;             ///< assumed: at which the surface is looked and aimed at
   double recalled_error = 0.0035;      ///< assumed: between keypoints, part of their distance
   double recalled_pace = 0.92;         ///< study: tau of re-creating by that of tracing
   // How a technique is steered.
   double aiming_turned_correction = 0.6;  ///< assumed: the wrist is quicker than the arm
-  double aiming_coordination = 0.8;       ///< assumed: hand and wrist make up for each other
-  double aiming_wrist = 0.04;             ///< assumed: part of the way drawn from the wrist
-  double aiming_facing_rad = 1.55;        ///< assumed: facing_rad of who looks along the nozzle
+  double aiming_coordination = 0.95;      ///< assumed: hand and wrist make up for each other
+  double aiming_wrist = 0.15;             ///< assumed: part of the way drawn from the wrist
+  double aiming_facing_rad = 1.0;         ///< assumed: facing_rad of who looks along the nozzle
   double aiming_head = 1.6;               ///< assumed: head_follow when aiming along the nozzle
+  double aiming_slant_rad = 0.4;          ///< assumed: sprays blur, and rays jump, at a slant
   double moving_wobble = 1.0;             ///< assumed: the wrist rests where it does not count
   double moving_pace = 1.13;              ///< study: tau of mimicry by that of spraycan
 };

@@ -15,6 +15,8 @@ enum class HandCopy {
   automatic,   ///< translated unless the surface turns more than 90 degrees from its mean normal
   translated,  ///< the intended curve, moved along its mean normal
   offset,      ///< the intended curve on an offset surface
+  placed,      ///< translated, seeing the first point within slant_rad of the normal there
+  turned,      ///< translated, but turned to stay within slant_rad of the surface's normal
 };
 
 /// What a person does when drawing. "Study" marks what was seen in the paper's study or is asked
@@ -26,6 +28,7 @@ struct SimulationOptions {
   double most_duration_s = 5.0;
   HandCopy copy = HandCopy::automatic;  ///< assumed
   double mean_distance_m = 0.048;       ///< study: mean closest distance from stroke to target
+  double slant_rad = 60 * std::numbers::pi / 180;  ///< assumed: of placed and turned copies
   double smoothing_m = 0.01;        ///< physiology: 1 to 2 cm; Gaussian deviation along the path
   double drift_m = 0.0025;          ///< physiology: 2 to 3 mm
   double least_drift_hz = 0.1;      ///< assumed
@@ -54,6 +57,9 @@ struct SimulationOptions {
   double feedback_delay_s = 0.15;        ///< physiology: from seeing an error to correcting it
   double feedback_gain_per_s = 4.0;      ///< physiology: part of the visible error removed a second
   double most_correction_m_per_s = 0.2;  ///< assumed: a jump of the ink is not chased faster
+  /// assumed: ink that is farther off is on another part of the shape; of its error only what is
+  /// seen, across the line of sight, is corrected, and as if it were no larger than this
+  double most_corrected_m = 1000;
   /// assumed: part of a correction that is made by turning the controller, not by moving it; for
   /// techniques that spray. 0 to 1.
   double turned_correction = 0.0;
