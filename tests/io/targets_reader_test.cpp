@@ -94,6 +94,11 @@ TEST(Targets, TheStudysFileFitsItsMeshes) {
     const TriangleMesh mesh =
         read_mesh(bytes(folder / (shape.name + ".obj")), MeshFormat::obj, shape.name);
     EXPECT_NO_THROW(study::require_fits(shape, mesh));
+    // Of another mesh that has all the faces, too.
+    for (const study::TargetShape& other : set.shapes) {
+      if (other.name == shape.name) continue;
+      EXPECT_THROW(study::require_fits(other, mesh), Error) << other.name;
+    }
     // Consecutive points are neighbours: the faces are numbered as the mesh has them. The published
     // curves have about 500 points over up to one and a half diagonals.
     for (const study::TargetCurve& curve : shape.curves)
