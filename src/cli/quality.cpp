@@ -220,10 +220,27 @@ Json row_json(const Row& row) {
           {"paper", paper}};
 }
 
-void run(const Arguments& args) {
+// What cannot be measured is named and left out; where that is all, it is an error.
+std::vector<Row> measure_all(const Arguments& args) {
   Executor executor(thread_count(args.bake.threads));
   std::vector<Row> rows;
-  for (const std::string& spec : args.inputs) rows.push_back(measure(spec, args, executor));
+  std::vector<Error> errors;
+  for (const std::string& spec : args.inputs) {
+    try {
+      rows.push_back(measure(spec, args, executor));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      errors.push_back(error);
+    }
+  }
+  if (rows.empty() && !errors.empty()) throw Error(errors.front());
+  for (const Error& error : errors) std::fprintf(stderr, "mimicry: left out: %s\n", error.what());
+  return rows;
+}
+
+void run(const Arguments& args, int& status) {
+  const std::vector<Row> rows = measure_all(args);
+  if (rows.size() < args.inputs.size()) status = kPartly;
   if (args.json) {
     Json list = Json::array();
     for (const Row& row : rows) list.push_back(row_json(row));
@@ -237,7 +254,7 @@ void run(const Arguments& args) {
 
 }  // namespace
 
-void add_quality(CLI::App& app, int&) {
+void add_quality(CLI::App& app, int& status) {
   auto* command = app.add_subcommand(
       "quality", "How well bakes serve: the paper's table, beside the paper's figures");
   auto args = std::make_shared<Arguments>();
@@ -249,7 +266,7 @@ void add_quality(CLI::App& app, int&) {
   add_cache_option(*command, args->bake);
   auto* csv = command->add_flag("--csv", args->csv, "As CSV");
   command->add_flag("--json", args->json, "For programs")->excludes(csv);
-  command->callback([args] { run(*args); });
+  command->callback([args, &status] { run(*args, status); });
 }
 
 }  // namespace mimicry::cli
