@@ -109,7 +109,7 @@ FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basi
       const Mat2 from = along[f] * product[f][e] + product[next(f)][e];
       const Mat2 to = along[f] * product[f][next(e)] + product[next(f)][next(e)];
       sums[f][e] = from * along[e].transpose() + to;
-      sums[e][f] = sums[f][e].transpose();
+      if (e != f) sums[e][f] = sums[f][e].transpose();
     }
   // The mean of all six is brought nearer to each pair in turn. The first pair starts it, so that
   // no pair begins on the wrong side of a reflection.
