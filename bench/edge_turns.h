@@ -33,19 +33,19 @@ inline EdgeTurns edge_turns(const embedding::SmoothProjector& projector) {
   for (Index h = 0; h < edges.count(); ++h) {
     const Index t = edges.twin(h);
     if (t < h) continue;
-    const auto corner = [&](Index half_edge, Index step) {
-      SurfacePoint p{half_edge / 3, Vec3::Unit((half_edge % 3 + step) % 3)};
-      return std::pair(surface.position(p), mesh.position(p));
+    const auto in_embedding_at = [&](Index half_edge, Index step) -> phong::Vec8 {
+      return surface.position({half_edge / 3, Vec3::Unit((half_edge % 3 + step) % 3)});
     };
-    const auto [a8, a3] = corner(h, 0);
-    const auto [b8, b3] = corner(h, 1);
-    const auto [left8, left3] = corner(h, 2);
-    const auto [right8, right3] = corner(t, 2);
+    const auto in_space_at = [&](Index half_edge, Index step) -> Vec3 {
+      return mesh.corner(half_edge / 3, (half_edge % 3 + step) % 3);
+    };
     SurfacePoint middle{h / 3, Vec3::Constant(0.5)};
     middle.bary[(h + 2) % 3] = 0.0;
     const phong::Basis plane = surface.tangent_plane(middle);
-    const phong::Vec8 edge8 = b8 - a8, l8 = left8 - a8, r8 = right8 - a8;
-    const Vec3 edge3 = b3 - a3, l3 = left3 - a3, r3 = right3 - a3;
+    const phong::Vec8 a8 = in_embedding_at(h, 0), edge8 = in_embedding_at(h, 1) - a8,
+                      l8 = in_embedding_at(h, 2) - a8, r8 = in_embedding_at(t, 2) - a8;
+    const Vec3 a3 = in_space_at(h, 0), edge3 = in_space_at(h, 1) - a3, l3 = in_space_at(h, 2) - a3,
+               r3 = in_space_at(t, 2) - a3;
     Eigen::Matrix2d from, to;
     from << plane * edge8, plane * l8;
     to << plane * edge8, plane * r8;
