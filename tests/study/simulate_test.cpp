@@ -294,9 +294,9 @@ TEST(Simulate, ACopyTurnsOnlyBeyondItsSlant) {
     const stroke::Stroke stroke = simulate(s.target, curve, s.place, options, 3);
     double most = 0;
     for (std::size_t i = 0; i < stroke.frames.size(); ++i)
-      most = std::max(most, (stroke.frames[i].controller.position -
-                             translated.frames[i].controller.position)
-                                .norm());
+      most = std::max(
+          most,
+          (stroke.frames[i].controller.position - translated.frames[i].controller.position).norm());
     return most;
   };
   EXPECT_LT(farthest(HandCopy::turned, std::numbers::pi), 1e-9);

@@ -41,8 +41,8 @@ struct TargetSet {
 };
 
 /// Throws Error(invalid_input), naming shape, curve and point, where a point names a face that the
-/// mesh has not, or where a curve steps over more than a quarter of the mesh's diagonal: the mesh is
-/// another one, or its faces stand in another order. O(vertices and points).
+/// mesh has not, or where a curve steps over more than a quarter of the mesh's diagonal: the mesh
+/// is another one, or its faces stand in another order. O(vertices and points).
 void require_fits(const TargetShape& shape, const TriangleMesh& mesh);
 
 }  // namespace mimicry::study
