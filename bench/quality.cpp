@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     else
       out = word;
   }
-  if (out.empty()) {
+  if (out.empty() || out.front() == '-') {
     std::fprintf(stderr, "quality [--small] [--threads N] OUT.csv\n");
     return 2;
   }

@@ -14,7 +14,7 @@ namespace mimicry {
 
 /// Memory for arrays of many megabytes in large pages, where the system has them on request
 /// (Linux): filling such an array for the first time then costs no fault for each of its 4 kB,
-/// which takes longer than writing them. Smaller arrays are as usual.
+/// but one for each 2 MB. Smaller arrays are as usual.
 template <class T>
 struct LargeAllocator {
   using value_type = T;

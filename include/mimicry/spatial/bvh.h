@@ -90,8 +90,8 @@ class Bvh {
   /// The same, without a search for where to divide: from primitives that stand in an order in
   /// which neighbours are near (`leaf_order`; any order gives equal answers). order: #count,
   /// leaves hold primitive(order[i]); as they come where it is empty. within: holds all their
-  /// boxes. primitive is called once for each, in the order of the leaves. Some twenty times as
-  /// fast as a build; queries are slower than after one, by a few tens of percent. O(count).
+  /// boxes. primitive is called once for each, in the order of the leaves. Much faster than a
+  /// build; queries are some tens of percent slower than after one (docs/performance.md). O(count).
   template <class Get>
   Bvh(const Box& within, Index count, Get&& primitive, std::span<const Index> order = {});
 
