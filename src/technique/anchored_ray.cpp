@@ -9,7 +9,6 @@ namespace {
 constexpr double kNoDirection = 1e-9;
 // 1 + cos of motions that are exactly reversed.
 constexpr double kReversed = 1e-12;
-constexpr double kFarthestHand = 1e60;  // squares beyond it overflow
 
 // The nearer hit of the two rays from r, along and against the direction; of equally near ones that
 // along it.

@@ -20,7 +20,6 @@ constexpr double kSearchRadius = 1.5;    // of the faces around q
 constexpr double kReach = 4.0;           // |t|: kFarthestFoot over kVisibleDot, the shortest |n|
 constexpr double kNoMotion = 1e-15;      // of the diagonal: below it the hand rests
 constexpr double kTolerance = 1e-9;      // of the diagonal: |r - x - t n|
-constexpr double kFarthestHand = 1e60;   // squares beyond it overflow
 constexpr int kLongestWalk = 64;         // faces
 constexpr std::size_t kMostFaces = 256;  // of a search; the nearest in steps come first
 constexpr std::size_t kSlots = 1024;     // a power of two, four for each face

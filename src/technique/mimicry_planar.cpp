@@ -6,7 +6,6 @@ namespace {
 
 // The sine between two motions below which they do not span a plane.
 constexpr double kParallel = 1e-9;
-constexpr double kFarthestHand = 1e60;  // squares beyond it overflow
 
 Vec3 unit_or_zero(const Vec3& v) {
   const double length = v.norm();

@@ -5,18 +5,17 @@
 #include <mimicry/mesh/crossing.h>
 
 namespace mimicry::technique {
-namespace {
 
-// q is drawn this far into its face (in barycentrics), so that the plane has corners of the face on
-// both sides and passes a vertex on a definite side.
-constexpr double kInward = 1e-9;
-
-}  // namespace
+SurfacePoint drawn_inward(const SurfacePoint& q) {
+  constexpr double kInward = 1e-9;
+  SurfacePoint inside{q.face, q.bary.cwiseMax(kInward)};
+  inside.bary /= inside.bary.sum();
+  return inside;
+}
 
 SurfacePoint closest_on_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
                                 const SurfacePoint& q, const Vec3& normal, const Vec3& r) {
-  SurfacePoint start{q.face, q.bary.cwiseMax(kInward)};
-  start.bary /= start.bary.sum();
+  const SurfacePoint start = drawn_inward(q);
   const Vec3 origin = mesh.position(start);
   const auto side = [&](Index v) { return normal.dot(mesh.position(v) - origin); };
   // The section leaves every face through the half-edge that runs from the plane's negative side to

@@ -4,13 +4,12 @@
 
 #include <mimicry/mesh/crossing.h>
 
+#include "technique/planar_section.h"
+
 namespace mimicry::technique {
 namespace {
 
-constexpr int kMostFaces = 4096;
-// q is drawn this far into its face (in barycentrics), so that the plane has corners of the face on
-// both sides and passes a vertex on a definite side.
-constexpr double kInward = 1e-9;
+constexpr int kMostSteps = 4096;
 
 // The same point, in the barycentrics of the face on the other side of the half-edge.
 SurfacePoint across(Index twin, double t) {
@@ -27,8 +26,7 @@ SurfacePoint walk_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
   if (!(norm > 0.0) || !(length > 0.0)) return q;
   const Vec3 plane = sideways / norm;
 
-  SurfacePoint at{q.face, q.bary.cwiseMax(kInward)};
-  at.bary /= at.bary.sum();
+  SurfacePoint at = drawn_inward(q);
   const Vec3 origin = mesh.position(at);
   const auto side = [&](Index v) { return plane.dot(mesh.position(v) - origin); };
   // Forward, a section leaves every face through the half-edge that runs from the plane's negative
@@ -38,7 +36,7 @@ SurfacePoint walk_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
   };
   double left = length;
   Index first = 3 * at.face;
-  for (int i = 0; i < kMostFaces; ++i) {
+  for (int i = 0; i < kMostSteps; ++i) {
     Index h = first;
     for (int k = 0; k < 2 && !leaves(h); ++k) h = HalfEdges::next(h);
     if (!leaves(h)) return at;

@@ -35,13 +35,15 @@ inline Vec3 anchored_point(const Canvas& canvas, const Memory& memory, const str
 }
 
 /// With what is carried over, r can stand where a branch of answers ends, and the answer jumps
-/// although the hand hardly moved. A step longer than 4 |dp| and than 2 mm in the world goes only
-/// that far along the surface; the rest then draws the next ones on to where the jump led.
+/// although the hand hardly moved. A step longer than 4 |dp| and than what kSlide makes in its time
+/// goes only that far along the surface; the rest then draws the next ones on to where the jump
+/// led.
 inline Step without_jump(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                          const Options& options, const Step& step) {
+  constexpr double kSlide = 0.18;  // metres a second: 2 mm from frame to frame at 90 Hz
   if (options.soft_anchor.on == 0.0 || step.answer == Answer::miss) return step;
   const double longest = std::max(4.0 * (frame.controller.position - memory.pen).norm(),
-                                  2e-3 / canvas.metres_per_unit);
+                                  kSlide * (frame.time_s - memory.time_s) / canvas.metres_per_unit);
   const Vec3 way = step.position - memory.position;
   if (!(way.norm() > longest)) return step;
   const spatial::Target& target = *canvas.target;
@@ -66,15 +68,17 @@ inline void keep_rest(const Canvas& canvas, const Memory& memory, const stroke::
 template <class OneStep>
 Step step_in_parts(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                    const Options& options, OneStep&& step) {
-  constexpr double kLongestPart = 1.5e-3;  // metres
-  constexpr double kMostParts = 16.0;
-  constexpr double kFarthestHand = 1e60;  // squares beyond it overflow
+  constexpr double kLongestPart = 0.4e-3;  // metres
+  constexpr double kMostParts = 32.0;
   if (options.soft_anchor.on == 0.0) return step(memory, frame);
   const Vec3 motion = frame.controller.position - memory.pen;
   if (!(motion.cwiseAbs().maxCoeff() <= kFarthestHand)) return step(memory, frame);
   const double wanted = motion.norm() * canvas.metres_per_unit / kLongestPart;
   const int parts = static_cast<int>(std::ceil(std::min(std::max(wanted, 1.0), kMostParts)));
   if (parts == 1) return step(memory, frame);
+  // The parts bend as the hand does, by its last motion: the chords of 30 Hz are too straight.
+  Vec3 bend = memory.points > 1 ? Vec3(motion - memory.motion) : Vec3(Vec3::Zero());
+  if (bend.norm() > motion.norm()) bend.setZero();
   Step last;
   Memory at = memory;
   for (int k = 1; k <= parts; ++k) {
@@ -82,7 +86,7 @@ Step step_in_parts(const Canvas& canvas, const Memory& memory, const stroke::Fra
     if (k < parts) {
       const double t = static_cast<double>(k) / parts;
       part.time_s = memory.time_s + t * (frame.time_s - memory.time_s);
-      part.controller.position = memory.pen + t * motion;
+      part.controller.position = memory.pen + t * motion - 0.5 * t * (1.0 - t) * bend;
     }
     last = step(at, part);
     if (last.answer == Answer::miss) return miss(memory);

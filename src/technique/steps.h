@@ -23,6 +23,9 @@ Step anchored_ray_transport(const Canvas&, const Memory&, const stroke::Frame&, 
 // Anchored, without a bake (ours).
 Step mimicry_live(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
 
+/// Of a motion, along an axis: squares of what is farther overflow.
+inline constexpr double kFarthestHand = 1e60;
+
 /// The step that inks q for this frame: the frame becomes the anchor.
 Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const Memory& memory,
          const stroke::Frame& frame);
