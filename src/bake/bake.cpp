@@ -20,10 +20,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 void check(const BakeOptions& options) {
   const auto refuse = [](const std::string& what) {
     throw Error(ErrorKind::invalid_input, "bake: " + what);

@@ -9,16 +9,12 @@
 namespace mimicry::bake {
 namespace {
 
-constexpr std::size_t kChunk = 2048;  // rows of a vector that one thread takes at a time
+constexpr std::size_t kRowChunk = 2048;  // rows of a vector that one thread takes at a time
 using Sums = std::array<double, kBlock>;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 // y = a x by rows.
 void multiply(const SparseRows& a, const BlockVector& x, BlockVector& y, Executor& executor) {
-  executor.for_chunks(at(a.rows()), kChunk, [&](std::size_t begin, std::size_t end, int) {
+  executor.for_chunks(at(a.rows()), kRowChunk, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       Sums sum{};
       for (std::size_t k = at(a.start[i]); k < at(a.start[i + 1]); ++k) {
@@ -34,11 +30,11 @@ void multiply(const SparseRows& a, const BlockVector& x, BlockVector& y, Executo
 // Sums over the rows of what `term(row index, sums)` adds: chunk by chunk, then over the chunks.
 template <class Term>
 Sums reduce(std::size_t rows, Executor& executor, Term&& term) {
-  std::vector<Sums> partial((rows + kChunk - 1) / kChunk, Sums{});
-  executor.for_chunks(rows, kChunk, [&](std::size_t begin, std::size_t end, int) {
+  std::vector<Sums> partial((rows + kRowChunk - 1) / kRowChunk, Sums{});
+  executor.for_chunks(rows, kRowChunk, [&](std::size_t begin, std::size_t end, int) {
     Sums sum{};
     for (std::size_t i = begin; i < end; ++i) term(i, sum);
-    partial[begin / kChunk] = sum;
+    partial[begin / kRowChunk] = sum;
   });
   Sums total{};
   for (const Sums& p : partial)
@@ -126,7 +122,7 @@ void BlockPcg::assemble() {
       row.sum.assign(at(unknowns_), 0.0);
       row.seen.assign(at(unknowns_), kNone);
     }
-    executor_.for_chunks(at(unknowns_), kChunk, [&](std::size_t begin, std::size_t end, int w) {
+    executor_.for_chunks(at(unknowns_), kRowChunk, [&](std::size_t begin, std::size_t end, int w) {
       for (std::size_t i = begin; i < end; ++i) body(i, rows[static_cast<std::size_t>(w)]);
     });
   };
@@ -262,7 +258,7 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
     for (std::size_t c = 0; c < kBlock; ++c)
       beta[c] = result.iterations > 0 && rho[c] > 0.0 ? fresh[c] / rho[c] : 0.0;
     rho = fresh;
-    executor_.for_chunks(n, kChunk, [&](std::size_t begin, std::size_t end, int) {
+    executor_.for_chunks(n, kRowChunk, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t c = 0; c < kBlock; ++c)
           p[i * kBlock + c] = static_cast<double>(z[i * kBlock + c]) + beta[c] * p[i * kBlock + c];
@@ -275,7 +271,7 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
     Sums alpha{};
     for (std::size_t c = 0; c < kBlock; ++c)
       if (active[c] && curvature[c] > 0.0) alpha[c] = rho[c] / curvature[c];
-    executor_.for_chunks(n, kChunk, [&](std::size_t begin, std::size_t end, int) {
+    executor_.for_chunks(n, kRowChunk, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t c = 0; c < kBlock; ++c) {
           x[i * kBlock + c] += alpha[c] * p[i * kBlock + c];

@@ -7,10 +7,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 bool is_flat_tet(std::span<const Vec3> positions, const Tet& t) {
   return is_flat(positions[at(t[0])], positions[at(t[1])], positions[at(t[2])],
                  positions[at(t[3])]);

@@ -14,10 +14,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Stiffness of the element's corner `k` against its other corners, and its share of the mass; false
 // where the element is left out. weights[j] is the integral of the product of the gradients of the
 // hat functions of k and j.
@@ -203,40 +199,42 @@ LsMeshResult solve(const LsMeshInput& input, std::span<const Element> elements,
     SparseRows rows;
     std::vector<double> constants;
   };
-  constexpr std::size_t kChunk = 1024;
+  constexpr std::size_t kMatrixChunk = 1024;
   const std::size_t row_count = vertices + input.soft.size();
-  std::vector<Chunk> chunks((row_count + kChunk - 1) / kChunk);
+  std::vector<Chunk> chunks((row_count + kMatrixChunk - 1) / kMatrixChunk);
   {
     const Elements<Element> parts(elements, input.positions);
     std::vector<RowSum> sums(static_cast<std::size_t>(executor.threads()),
                              RowSum(unknowns, dimension));
-    executor.for_chunks(row_count, kChunk, [&](std::size_t begin, std::size_t end, int worker) {
-      RowSum& row = sums[static_cast<std::size_t>(worker)];
-      Chunk& chunk = chunks[begin / kChunk];
-      for (std::size_t i = begin; i < end; ++i) {
-        row.begin(static_cast<Index>(i));
-        double scale = 1.0;
-        Eigen::RowVectorXd wished = Eigen::RowVectorXd::Zero(dimension);
-        if (i < vertices) {
-          add_vertex_row(input, parts, sources, keys[i].second, row, scale);
-        } else {
-          const SoftConstraint& soft = input.soft[i - vertices];
-          for (std::size_t k = 0; k < 4; ++k)
-            if (soft.vertices[k] != kNone)
-              row.add(input, sources, soft.vertices[k], soft.weights[static_cast<Eigen::Index>(k)]);
-          scale = soft.strength;
-          wished = input.soft_values->row(soft.row);
-        }
-        std::sort(row.columns().begin(), row.columns().end());
-        for (const Index u : row.columns()) {
-          chunk.rows.column.push_back(u);
-          chunk.rows.value.push_back(scale * row.sum(u));
-        }
-        chunk.rows.start.push_back(static_cast<Index>(chunk.rows.column.size()));
-        for (Eigen::Index c = 0; c < dimension; ++c)
-          chunk.constants.push_back(scale * (wished[c] - row.constant()[c]));
-      }
-    });
+    executor.for_chunks(
+        row_count, kMatrixChunk, [&](std::size_t begin, std::size_t end, int worker) {
+          RowSum& row = sums[static_cast<std::size_t>(worker)];
+          Chunk& chunk = chunks[begin / kMatrixChunk];
+          for (std::size_t i = begin; i < end; ++i) {
+            row.begin(static_cast<Index>(i));
+            double scale = 1.0;
+            Eigen::RowVectorXd wished = Eigen::RowVectorXd::Zero(dimension);
+            if (i < vertices) {
+              add_vertex_row(input, parts, sources, keys[i].second, row, scale);
+            } else {
+              const SoftConstraint& soft = input.soft[i - vertices];
+              for (std::size_t k = 0; k < 4; ++k)
+                if (soft.vertices[k] != kNone)
+                  row.add(input, sources, soft.vertices[k],
+                          soft.weights[static_cast<Eigen::Index>(k)]);
+              scale = soft.strength;
+              wished = input.soft_values->row(soft.row);
+            }
+            std::sort(row.columns().begin(), row.columns().end());
+            for (const Index u : row.columns()) {
+              chunk.rows.column.push_back(u);
+              chunk.rows.value.push_back(scale * row.sum(u));
+            }
+            chunk.rows.start.push_back(static_cast<Index>(chunk.rows.column.size()));
+            for (Eigen::Index c = 0; c < dimension; ++c)
+              chunk.constants.push_back(scale * (wished[c] - row.constant()[c]));
+          }
+        });
   }
   SparseRows g;
   std::vector<double> constants;

@@ -9,7 +9,7 @@
 namespace mimicry::bake {
 namespace {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kCellChunk = 256;
 
 double size_at(const Surface& surface, const std::vector<double>& local_size,
                const spatial::NearestTriangle& nearest) {
@@ -54,7 +54,7 @@ Octree make_octree(const Surface& surface, const std::vector<double>& local_size
   std::vector<Pending> level(1), next;
   level[0] = {{{0, 0, 0}, 1 << Octree::kDepth}, kNone};
   while (!level.empty()) {
-    executor.for_chunks(level.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
+    executor.for_chunks(level.size(), kCellChunk, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t i = begin; i < end; ++i) {
         Pending& p = level[i];
         const double half = 0.5 * p.cell.side;
@@ -129,7 +129,7 @@ std::vector<OctreeNode> octree_nodes(const Octree& octree, const Surface& surfac
                            [](const Place& a, const Place& b) { return a.at == b.at; }),
                places.end());
   std::vector<OctreeNode> nodes(places.size());
-  executor.for_chunks(places.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
+  executor.for_chunks(places.size(), kCellChunk, [&](std::size_t begin, std::size_t end, int) {
     Index hint = kNone;
     for (std::size_t i = begin; i < end; ++i) {
       const auto& at = places[i].at;

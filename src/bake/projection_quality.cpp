@@ -12,7 +12,7 @@ using embedding::ScpHint;
 using embedding::ScpLabel;
 using embedding::SmoothProjector;
 
-constexpr std::size_t kChunk = 256, kBlock = 64 * kChunk;
+constexpr std::size_t kPointChunk = 256, kPointBlock = 64 * kPointChunk;
 constexpr int kPointsPerTet = 4;
 constexpr int kPointsPerFace = 9;  // corners, a point on each edge, three inside
 
@@ -47,9 +47,9 @@ template <class Body>
 Counts sum(std::size_t count, Executor& executor, const ProgressCallback& progress,
            std::string_view stage, Body&& body) {
   std::vector<Counts> parts(static_cast<std::size_t>(executor.threads()));
-  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+  for (std::size_t begin = 0; begin < count; begin += kPointBlock) {
     report(progress, stage, static_cast<double>(begin) / static_cast<double>(count));
-    executor.for_chunks(std::min(kBlock, count - begin), kChunk,
+    executor.for_chunks(std::min(kPointBlock, count - begin), kPointChunk,
                         [&](std::size_t first, std::size_t last, int worker) {
                           ScpHint hint;
                           Counts& counts = parts[static_cast<std::size_t>(worker)];

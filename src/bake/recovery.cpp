@@ -9,10 +9,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Pieces are not cut below this part of the diagonal.
 constexpr double kShortest = 2e-5;
 // Piercings this near to a side of the face (barycentric) are put on the side.
@@ -136,10 +132,10 @@ bool Recovery::find_piercings(std::vector<Piercing>& piercings, std::vector<Cut>
     std::vector<Piercing> piercings;
     std::vector<Index> crossings;
   };
-  constexpr std::size_t kChunk = 1024;
-  std::vector<Found> found((edges.size() + kChunk - 1) / kChunk);
-  executor_.for_chunks(edges.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
-    Found& mine = found[begin / kChunk];
+  constexpr std::size_t kEdgeChunk = 1024;
+  std::vector<Found> found((edges.size() + kEdgeChunk - 1) / kEdgeChunk);
+  executor_.for_chunks(edges.size(), kEdgeChunk, [&](std::size_t begin, std::size_t end, int) {
+    Found& mine = found[begin / kEdgeChunk];
     for (std::size_t e = begin; e < end; ++e) {
       const auto u = static_cast<Index>(edges[e] >> 32);
       const auto v = static_cast<Index>(edges[e] & 0xffffffffU);

@@ -10,14 +10,10 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Points of the surface are far from each other where the way along its edges is longer than this
 // times the straight way. Edges make a detour of up to a third; a fold of 45 degrees has 2.6.
 constexpr double kFar = 3.5;
-constexpr std::size_t kChunk = 512;
+constexpr std::size_t kSheetChunk = 512;
 
 // The point of the surface that a vertex of the shell lies over, and the corners of its face.
 struct Foot {
@@ -32,7 +28,7 @@ std::uint64_t pair_key(Index a, Index b) {
 std::vector<Foot> find_feet(const Shell& shell, const Surface& surface, Executor& executor) {
   const TriangleMesh& mesh = surface.mesh();
   std::vector<Foot> feet(shell.positions.size());
-  executor.for_chunks(feet.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
+  executor.for_chunks(feet.size(), kSheetChunk, [&](std::size_t begin, std::size_t end, int) {
     Index hint = kNone;
     for (std::size_t v = begin; v < end; ++v) {
       const auto index = static_cast<Index>(v);
@@ -133,14 +129,15 @@ std::vector<std::uint64_t> far_edges(const Shell& shell, const Surface& surface,
   const EdgePaths paths(surface.mesh());
   std::vector<EdgePaths::Scratch> scratch(static_cast<std::size_t>(executor.threads()));
   std::vector<char> is_far(edges.size(), 0);
-  executor.for_chunks(edges.size(), kChunk, [&](std::size_t begin, std::size_t end, int worker) {
-    for (std::size_t e = begin; e < end; ++e) {
-      const Foot& a = feet[static_cast<std::size_t>(edges[e] >> 32)];
-      const Foot& b = feet[static_cast<std::size_t>(edges[e] & 0xffffffffU)];
-      const double limit = kFar * (a.position - b.position).norm();
-      is_far[e] = !paths.reaches(a, b, limit, scratch[static_cast<std::size_t>(worker)]);
-    }
-  });
+  executor.for_chunks(
+      edges.size(), kSheetChunk, [&](std::size_t begin, std::size_t end, int worker) {
+        for (std::size_t e = begin; e < end; ++e) {
+          const Foot& a = feet[static_cast<std::size_t>(edges[e] >> 32)];
+          const Foot& b = feet[static_cast<std::size_t>(edges[e] & 0xffffffffU)];
+          const double limit = kFar * (a.position - b.position).norm();
+          is_far[e] = !paths.reaches(a, b, limit, scratch[static_cast<std::size_t>(worker)]);
+        }
+      });
   std::size_t kept = 0;
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (is_far[e]) edges[kept++] = edges[e];

@@ -13,10 +13,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Keeps the tetrahedra that reach into the shell, and the vertices that they use.
 void keep_near(Shell& shell, const Delaunay& delaunay, const std::vector<double>& distances,
                std::vector<Tie> ties, Index surface_vertices, double offset) {

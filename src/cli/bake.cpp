@@ -16,7 +16,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct BakeArguments {
   std::string mesh;
   std::string out;
   BakeSettings bake;
@@ -42,7 +42,7 @@ class StageTimes {
   std::vector<std::pair<std::string, Clock::time_point>> stages_;
 };
 
-void run(const Arguments& args) {
+void run_bake(const BakeArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   (void)make_target(named, false);
   StageTimes times;
@@ -67,7 +67,7 @@ void run(const Arguments& args) {
 
 void add_bake(CLI::App& app, int&) {
   auto* command = app.add_subcommand("bake", "Prepare a target for smooth closest points");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<BakeArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("-o,--out", args->out, "The .mimicry file to write")->required();
   add_threads_option(*command, args->bake.threads);
@@ -83,7 +83,7 @@ void add_bake(CLI::App& app, int&) {
                    "Half the shell's thickness, part of the diagonal")
       ->check(number_between(1e-3, 0.5))
       ->capture_default_str();
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_bake(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -18,7 +18,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string rows;
   std::vector<std::string> methods;
   PairingOptions pairing;
@@ -29,7 +29,7 @@ struct Arguments {
 };
 
 void print_group(const PairedGroup& group, const std::vector<study::Comparison>& comparisons,
-                 const Arguments& args) {
+                 const CompareArguments& args) {
   std::printf("%s: %zu pairs", group.name.c_str(), group.pairs);
   if (group.failed > 0) std::printf(", %zu left out (rejected or filtered)", group.failed);
   if (group.unpaired > 0) std::printf(", %zu rows without a partner", group.unpaired);
@@ -62,7 +62,7 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
   std::printf("\n");
 }
 
-void run(Arguments args) {
+void run_compare(CompareArguments args) {
   if (args.methods.size() != 2 || args.methods[0] == args.methods[1])
     throw Error(ErrorKind::invalid_input, "--methods: give two, as in --methods spraycan,mimicry");
   const std::string name = std::filesystem::path(args.rows).filename().string();
@@ -91,7 +91,7 @@ void run(Arguments args) {
 void add_compare(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "compare", "Compare two methods over measured strokes: means, signed-rank tests, intervals");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<CompareArguments>();
   command->add_option("rows", args->rows, "A CSV file of measure or replay")->required();
   command->add_option("-m,--methods", args->methods, "Two methods: z > 0 where the first is larger")
       ->delimiter(',')
@@ -119,7 +119,7 @@ void add_compare(CLI::App& app, int&) {
   command->add_option("--seed", args->comparison.bootstrap.seed, "Of the bootstrap")
       ->capture_default_str();
   command->add_flag("--json", args->json, "For programs");
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_compare(*args); });
 }
 
 }  // namespace mimicry::cli

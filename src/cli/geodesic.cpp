@@ -19,7 +19,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct GeodesicArguments {
   std::string mesh;
   std::vector<std::string> from;
   std::optional<std::string> to;
@@ -101,7 +101,7 @@ std::string distances_csv(const geodesic::ExactGeodesics& geodesics, Index verti
 
 // A path is no table and a table no path: whoever mixes up the names forgot --to or gave it too
 // much.
-void check_out(const Arguments& args) {
+void check_out(const GeodesicArguments& args) {
   if (args.to && args.out.ends_with(".csv"))
     throw CLI::ValidationError("--out", "with --to a path is written, as JSON; name a .json file");
   if (!args.to && args.out.ends_with(".json"))
@@ -109,7 +109,7 @@ void check_out(const Arguments& args) {
         "--out", "without --to distances are written, as CSV; name a .csv file, or give --to");
 }
 
-void run(const Arguments& args, int& status) {
+void run_geodesic(const GeodesicArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.allow_nonmanifold);
   std::vector<geodesic::Source> sources;
@@ -152,7 +152,7 @@ void run(const Arguments& args, int& status) {
 void add_geodesic(CLI::App& app, int& status) {
   auto* command =
       app.add_subcommand("geodesic", "Exact shortest paths and distances on the surface");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<GeodesicArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command
       ->add_option("--from", args->from,
@@ -166,7 +166,7 @@ void add_geodesic(CLI::App& app, int& status) {
   command->add_option("-o,--out", args->out, "path.json (with --to) or distances.csv")->required();
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces; they are not crossed");
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_geodesic(*args, status); });
 }
 
 }  // namespace mimicry::cli

@@ -21,7 +21,7 @@ namespace {
 // Text files give some 6 digits or more.
 constexpr double kRounding = 1e-4;
 
-struct Arguments {
+struct ImportEmbeddingArguments {
   std::string surface, shell, mesh, out;
 };
 
@@ -50,7 +50,7 @@ void take_positions(embedding::Embedding& e, const NamedMesh& named) {
   e.diagonal = diagonal(named.mesh);
 }
 
-void run(const Arguments& args) {
+void run_import_embedding(const ImportEmbeddingArguments& args) {
   embedding::Embedding e = io::make_embedding(read(args.surface, 3), read(args.shell, 4));
   if (!args.mesh.empty()) take_positions(e, load_mesh(args.mesh));
   const Eigen::Map<const bake::Values> values(e.values.data(), e.vertex_count(), e.dimension);
@@ -68,7 +68,7 @@ void run(const Arguments& args) {
 void add_import_embedding(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "import-embedding", "Make a .mimicry file of an embedding in the text format of other tools");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ImportEmbeddingArguments>();
   command->add_option("surface", args->surface, "The text file of the triangles (TRI.txt)")
       ->required();
   command->add_option("shell", args->shell, "The text file of the tetrahedra (TET.txt)")
@@ -78,7 +78,7 @@ void add_import_embedding(CLI::App& app, int&) {
                       "this file; " +
                           std::string(kMeshHelp));
   command->add_option("-o,--out", args->out, "The .mimicry file to write")->required();
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_import_embedding(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct InfoArguments {
   std::string mesh;
   bool json = false;
   bool allow_nonmanifold = false;
@@ -142,7 +142,7 @@ void print_report(const std::string& name, const MeshReport& r, const std::strin
     std::printf("  cannot be drawn on: %s\n", refusal.c_str());
 }
 
-void run(const Arguments& args, int& status) {
+void run_info(const InfoArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
   const MeshReport report = validate(named.mesh);
   std::string refusal;
@@ -162,12 +162,12 @@ void run(const Arguments& args, int& status) {
 
 void add_info(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("info", "Say what a mesh is, and whether it can be drawn on");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<InfoArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_flag("--json", args->json, "For programs");
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces (closest points and rays work there)");
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_info(*args, status); });
 }
 
 }  // namespace mimicry::cli

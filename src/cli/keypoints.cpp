@@ -16,7 +16,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct KeypointsArguments {
   std::string mesh;
   std::string targets;
   std::string shape;
@@ -25,7 +25,7 @@ struct Arguments {
   bool json = false;
 };
 
-void run(const Arguments& args) {
+void run_keypoints(const KeypointsArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.allow_nonmanifold);
   const study::TargetSet set = load_targets(args.targets);
@@ -57,7 +57,7 @@ void run(const Arguments& args) {
 void add_keypoints(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("keypoints", "The keypoints of target curves: ends, bends, long sections");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<KeypointsArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("--targets", args->targets, "A file of target curves on the mesh")
       ->required();
@@ -68,7 +68,7 @@ void add_keypoints(CLI::App& app, int&) {
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces");
   command->add_flag("--json", args->json, "For programs");
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_keypoints(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -26,7 +26,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct MeasureArguments {
   std::vector<std::string> folders;
   std::string shapes;
   std::string targets;
@@ -37,7 +37,7 @@ struct Arguments {
 };
 
 // A shape of the study, or why there is none.
-struct StudyShape {
+struct MeasuredShape {
   std::string name;
   std::string problem;
   std::optional<spatial::Target> target;
@@ -66,7 +66,7 @@ struct Outcome {
   std::vector<std::string> notes;
 };
 
-void load_shape(StudyShape& shape, const std::string& folder, const study::TargetSet& set,
+void load_shape(MeasuredShape& shape, const std::string& folder, const study::TargetSet& set,
                 const std::string& file) {
   try {
     const NamedMesh named = load_mesh(find_mesh_file(folder, shape.name));
@@ -82,15 +82,15 @@ void load_shape(StudyShape& shape, const std::string& folder, const study::Targe
   }
 }
 
-std::map<Index, StudyShape> load_shapes(const std::vector<Participant>& participants,
-                                        const Arguments& args) {
+std::map<Index, MeasuredShape> load_shapes(const std::vector<Participant>& participants,
+                                           const MeasureArguments& args) {
   const study::TargetSet set = load_targets(args.targets);
   const std::string file = std::filesystem::path(args.targets).filename().string();
-  std::map<Index, StudyShape> shapes;
+  std::map<Index, MeasuredShape> shapes;
   for (const Participant& participant : participants)
     for (const Index number : participant.sequence.shapes) {
       if (shapes.contains(number)) continue;
-      StudyShape& shape = shapes[number];
+      MeasuredShape& shape = shapes[number];
       if (static_cast<std::size_t>(number) >= study::kStudyShapes.size()) {
         shape.problem = "the study has no shape " + std::to_string(number);
         continue;
@@ -117,7 +117,8 @@ std::string heading(bool all, bool participant) {
 
 class Measurer {
  public:
-  Measurer(const Arguments& args, const std::map<Index, StudyShape>& shapes, bool participant)
+  Measurer(const MeasureArguments& args, const std::map<Index, MeasuredShape>& shapes,
+           bool participant)
       : args_(args), shapes_(shapes), participant_(participant) {}
 
   Outcome run(const Job& job) const {
@@ -126,7 +127,7 @@ class Measurer {
       outcome.rejected.push_back(
           {job.participant->name, job.method, job.shape, std::nullopt, reason});
     };
-    const StudyShape& shape = shapes_.at(job.shape);
+    const MeasuredShape& shape = shapes_.at(job.shape);
     if (!shape.problem.empty()) {
       reject_file(shape.problem);
       return outcome;
@@ -156,7 +157,7 @@ class Measurer {
   }
 
  private:
-  void measure(const Job& job, const StudyShape& shape, std::size_t i,
+  void measure(const Job& job, const MeasuredShape& shape, std::size_t i,
                const study::RecordedStroke& stroke, Index& method, Outcome& outcome) const {
     const Index said = study::method_number(study::method_of(stroke));
     if (said != kNone && said != method) {
@@ -202,8 +203,8 @@ class Measurer {
     outcome.failed_filters += measures.filters.passed() ? 0 : 1;
   }
 
-  const Arguments& args_;
-  const std::map<Index, StudyShape>& shapes_;
+  const MeasureArguments& args_;
+  const std::map<Index, MeasuredShape>& shapes_;
   bool participant_;
 };
 
@@ -235,7 +236,7 @@ void print_rejected(const Rejected& r) {
   std::fprintf(stderr, "mimicry: left out: %s: %s\n", where.c_str(), r.reason.c_str());
 }
 
-void run(const Arguments& args, int& status) {
+void run_measure(const MeasureArguments& args, int& status) {
   std::vector<Rejected> rejected;
   std::vector<Participant> participants;
   for (const std::string& folder : args.folders) try {
@@ -243,7 +244,7 @@ void run(const Arguments& args, int& status) {
     } catch (const Error& error) {
       rejected.push_back({folder, kNone, kNone, std::nullopt, error.what()});
     }
-  const std::map<Index, StudyShape> shapes = load_shapes(participants, args);
+  const std::map<Index, MeasuredShape> shapes = load_shapes(participants, args);
   std::vector<Job> jobs;
   for (const Participant& participant : participants)
     for (const Index method : participant.sequence.methods)
@@ -291,7 +292,7 @@ void run(const Arguments& args, int& status) {
 
 void add_measure(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("measure", "Measure the recorded curves of a study");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<MeasureArguments>();
   command->add_option("participants", args->folders, "Folders, one for each participant")
       ->required();
   command->add_option("--shapes", args->shapes, "Folder of the shapes' meshes (torus.obj ...)")
@@ -303,7 +304,7 @@ void add_measure(CLI::App& app, int& status) {
                     "K_E, K_g and F_g are sums over the pieces; what joins them does not count");
   command->add_option("--threads", args->threads, "Default: as many as the machine has")
       ->check(CLI::Range(1, 1024));
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_measure(*args, status); });
 }
 
 }  // namespace mimicry::cli

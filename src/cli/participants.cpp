@@ -24,7 +24,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct ParticipantsArguments {
   StudyShapeOptions shapes;
   std::vector<std::string> techniques = {"spraycan", "mimicry"};
   std::string out;
@@ -63,7 +63,7 @@ study::Steering steering_of(const technique::TechniqueInfo& info) {
   return info.name == "spraycan" ? study::Steering::aims : study::Steering::moves;
 }
 
-std::string folder_of(const Arguments& args, Index number) {
+std::string folder_of(const ParticipantsArguments& args, Index number) {
   char name[32];
   std::snprintf(name, sizeof name, "p%02d", static_cast<int>(number));
   return (std::filesystem::path(args.out) / name).string();
@@ -73,7 +73,7 @@ std::string folder_of(const Arguments& args, Index number) {
 constexpr double kStrokeSlot_s = 90.0;
 
 struct Study {
-  const Arguments& args;
+  const ParticipantsArguments& args;
   std::vector<Method> methods;
   std::vector<study::StudySequence> sequences;  // of each participant
   study::PopulationOptions population;
@@ -134,7 +134,7 @@ void draw_shape(const technique::Canvas& canvas, const StudyShape& shape, std::s
   }
 }
 
-void run(const Arguments& args) {
+void run_participants(const ParticipantsArguments& args) {
   const StudyShapes shapes(args.shapes);
   Study study{args, methods_of(args.techniques), {}, {}};
   std::vector<Index> method_numbers, shape_numbers, curve_counts;
@@ -186,7 +186,7 @@ void run(const Arguments& args) {
 void add_participants(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "participants", "Let simulated participants do the whole study; writes their recordings");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ParticipantsArguments>();
   add_study_shape_options(*command, args->shapes);
   command->add_option("-t,--techniques", args->techniques, "The study's methods, one or more")
       ->delimiter(',')
@@ -203,7 +203,7 @@ void add_participants(CLI::App& app, int&) {
   command->add_option("--threads", args->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_participants(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -30,7 +30,7 @@ namespace {
 using stroke::Stroke;
 using technique::TechniqueInfo;
 
-struct Arguments {
+struct ProjectArguments {
   std::string mesh;
   std::string strokes;
   std::vector<std::string> techniques;
@@ -53,7 +53,7 @@ struct StrokeCounts {
 };
 
 // What the table says of one technique, over all strokes.
-struct Row {
+struct TechniqueRow {
   const TechniqueInfo* technique = nullptr;
   std::size_t frames = 0;
   std::size_t points = 0;
@@ -161,7 +161,8 @@ std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh
 }
 
 io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
-                     const Stroke& stroke, const session::SessionOptions& options, Row& row) {
+                     const Stroke& stroke, const session::SessionOptions& options,
+                     TechniqueRow& row) {
   const spatial::Target& target = *canvas.target;
   session::SessionOptions sized = options;
   sized.expected_frames = stroke.frames.size();
@@ -213,9 +214,9 @@ std::string file_bytes(const std::string& format, const io::CurveSet& set, const
   return io::write_curves_ply(set, mesh, colors);
 }
 
-void print_rows(const std::vector<Row>& rows) {
+void print_rows(const std::vector<TechniqueRow>& rows) {
   std::vector<std::vector<std::string>> cells;
-  for (const Row& row : rows)
+  for (const TechniqueRow& row : rows)
     cells.push_back(
         {std::string(row.technique->name), std::to_string(row.points), std::to_string(row.missed),
          row.technique->needs_bake ? std::to_string(row.fallbacks()) : "-",
@@ -227,9 +228,9 @@ void print_rows(const std::vector<Row>& rows) {
               cells);
 }
 
-void print_json(const std::vector<Row>& rows, const std::vector<std::string>& files) {
+void print_json(const std::vector<TechniqueRow>& rows, const std::vector<std::string>& files) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Row& row : rows) {
+  for (const TechniqueRow& row : rows) {
     nlohmann::ordered_json entry = {{"technique", row.technique->name},
                                     {"frames", row.frames},
                                     {"points", row.points},
@@ -256,7 +257,7 @@ void print_json(const std::vector<Row>& rows, const std::vector<std::string>& fi
               nlohmann::ordered_json{{"techniques", list}, {"files", files}}.dump(2).c_str());
 }
 
-void run(const Arguments& args) {
+void run_project(const ProjectArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.allow_nonmanifold);
   const std::string strokes_name = std::filesystem::path(args.strokes).filename().string();
@@ -281,7 +282,7 @@ void run(const Arguments& args) {
   const PreparedCanvas prepared(target, chosen, args.embedding, args.bake);
 
   io::CurveSet set{named.name, {}};
-  std::vector<Row> rows;
+  std::vector<TechniqueRow> rows;
   {
     ProgressLine progress("projecting");
     for (const TechniqueInfo* info : chosen) {
@@ -318,7 +319,7 @@ void run(const Arguments& args) {
 
 void add_project(CLI::App& app, int&) {
   auto* command = app.add_subcommand("project", "Project recorded strokes on a mesh");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ProjectArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("strokes", args->strokes, "A mimicry-strokes file")->required();
   command->add_option("-t,--techniques", args->techniques, "Names, or all (mimicry techniques)")
@@ -348,7 +349,7 @@ void add_project(CLI::App& app, int&) {
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces");
   command->add_flag("--json", args->json, "The table for programs");
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_project(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -50,13 +50,13 @@ constexpr PaperRow kPaper[] = {
     {"noisy-cube-20", "1.5K", "3.0K", "29K-33K", "139K-167K", 11.0, 3.73},
 };
 
-struct Arguments {
+struct QualityArguments {
   std::vector<std::string> inputs;
   BakeSettings bake;
   bool csv = false, json = false;
 };
 
-struct Row {
+struct QualityRow {
   std::string name;
   bool was_kept = false;
   const PaperRow* paper = nullptr;
@@ -78,8 +78,8 @@ const PaperRow* paper_row(const std::string& spec) {
   return nullptr;
 }
 
-Row measure(const std::string& spec, const Arguments& args, Executor& executor) {
-  Row row;
+QualityRow measure(const std::string& spec, const QualityArguments& args, Executor& executor) {
+  QualityRow row;
   row.paper = paper_row(spec);
   embedding::Embedding e;
   if (is_embedding_file(spec)) {
@@ -116,10 +116,10 @@ std::string fail_text(double percent) {
   return percent > 0.0 && percent < 0.01 ? "<0.01" : fixed(percent, 2);
 }
 
-void print_text(const std::vector<Row>& rows) {
+void print_text(const std::vector<QualityRow>& rows) {
   std::vector<std::vector<std::string>> cells;
   bool any_lattice = false, any_cap = false;
-  for (const Row& row : rows) {
+  for (const QualityRow& row : rows) {
     const PaperRow* paper = row.paper;
     char error[32];
     std::snprintf(error, sizeof error, "%.1e", row.projection.surface_error);
@@ -143,7 +143,7 @@ void print_text(const std::vector<Row>& rows) {
   if (any_cap) std::printf("[2] a limit of the refinement or of an iteration was hit\n");
 }
 
-void print_csv(const std::vector<Row>& rows) {
+void print_csv(const std::vector<QualityRow>& rows) {
   const std::vector<std::string> columns = {"mesh",
                                             "vertices",
                                             "faces",
@@ -160,7 +160,7 @@ void print_csv(const std::vector<Row>& rows) {
                                             "paper_fail_percent"};
   std::string out = io::csv_heading(columns);
   const auto flag = [](bool x) { return io::Cell(std::int64_t{x}); };
-  for (const Row& row : rows) {
+  for (const QualityRow& row : rows) {
     const std::vector<io::Cell> cells = {
         row.name,
         std::int64_t{row.vertices},
@@ -181,7 +181,7 @@ void print_csv(const std::vector<Row>& rows) {
   std::fputs(out.c_str(), stdout);
 }
 
-Json row_json(const Row& row) {
+Json row_json(const QualityRow& row) {
   const bake::ProjectionQuality& p = row.projection;
   const embedding::BakeQuality& b = row.bake;
   Json paper;
@@ -221,9 +221,9 @@ Json row_json(const Row& row) {
 }
 
 // What cannot be measured is named and left out; where that is all, it is an error.
-std::vector<Row> measure_all(const Arguments& args) {
+std::vector<QualityRow> measure_all(const QualityArguments& args) {
   Executor executor(thread_count(args.bake.threads));
-  std::vector<Row> rows;
+  std::vector<QualityRow> rows;
   std::vector<Error> errors;
   for (const std::string& spec : args.inputs) {
     try {
@@ -238,12 +238,12 @@ std::vector<Row> measure_all(const Arguments& args) {
   return rows;
 }
 
-void run(const Arguments& args, int& status) {
-  const std::vector<Row> rows = measure_all(args);
+void run_quality(const QualityArguments& args, int& status) {
+  const std::vector<QualityRow> rows = measure_all(args);
   if (rows.size() < args.inputs.size()) status = kPartly;
   if (args.json) {
     Json list = Json::array();
-    for (const Row& row : rows) list.push_back(row_json(row));
+    for (const QualityRow& row : rows) list.push_back(row_json(row));
     std::printf("%s\n", list.dump(2).c_str());
   } else if (args.csv) {
     print_csv(rows);
@@ -257,7 +257,7 @@ void run(const Arguments& args, int& status) {
 void add_quality(CLI::App& app, int& status) {
   auto* command = app.add_subcommand(
       "quality", "How well bakes serve: the paper's table, beside the paper's figures");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<QualityArguments>();
   command
       ->add_option("inputs", args->inputs,
                    ".mimicry files, or meshes, which are baked: " + std::string(kMeshHelp))
@@ -266,7 +266,7 @@ void add_quality(CLI::App& app, int& status) {
   add_cache_option(*command, args->bake);
   auto* csv = command->add_flag("--csv", args->csv, "As CSV");
   command->add_flag("--json", args->json, "For programs")->excludes(csv);
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_quality(*args, status); });
 }
 
 }  // namespace mimicry::cli

@@ -23,7 +23,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
   std::string mesh;
   std::string strokes;
   std::string curves;
@@ -117,12 +117,6 @@ void add_curve(render::Scene& scene, const io::CurveRecord& record, const Triang
   }
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  for (const std::string& n : names)
-    if (n == name) return true;
-  return false;
-}
-
 // One panel for each technique, in the order of the curve file.
 std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveSet& set,
                                      const TriangleMesh& mesh, double radius) {
@@ -143,7 +137,7 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveS
   return panels;
 }
 
-void run(const Arguments& args) {
+void run_render(const RenderArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   const double size = diagonal(named.mesh);
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
@@ -170,7 +164,8 @@ void run(const Arguments& args) {
   for (const std::string& name : args.techniques) (void)technique::find_technique(name);
   std::erase_if(set.curves, [&](const io::CurveRecord& record) {
     return (!args.stroke.empty() && record.stroke != args.stroke) ||
-           (!args.techniques.empty() && !contains(args.techniques, record.technique));
+           (!args.techniques.empty() && std::find(args.techniques.begin(), args.techniques.end(),
+                                                  record.technique) == args.techniques.end());
   });
 
   if (!args.stroke.empty() && set.curves.empty() && scene.tubes.empty())
@@ -210,7 +205,7 @@ void run(const Arguments& args) {
 
 void add_render(CLI::App& app, int&) {
   auto* command = app.add_subcommand("render", "Make a picture of a mesh, strokes and curves");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<RenderArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("--strokes", args->strokes, "A mimicry-strokes file, drawn in black");
   command->add_option("--curves", args->curves, "A mimicry-curves file, one colour a technique");
@@ -253,7 +248,7 @@ void add_render(CLI::App& app, int&) {
   command->add_option("--width", args->width, "Pixels, of a panel where there are several")
       ->check(CLI::Range(1, 16384));
   command->add_option("--height", args->height, "Pixels")->check(CLI::Range(1, 16384));
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_render(*args); });
 }
 
 }  // namespace mimicry::cli

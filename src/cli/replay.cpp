@@ -23,7 +23,9 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+using Json = nlohmann::ordered_json;
+
+struct ReplayArguments {
   std::vector<std::string> strokes;
   std::vector<std::string> techniques;
   std::string shapes;
@@ -36,9 +38,8 @@ struct Arguments {
 
 // What decides the rows: an interrupted run is only taken up by the same. Also the file
 // replay.json.
-nlohmann::ordered_json settings_of(const Arguments& args) {
+nlohmann::ordered_json settings_of(const ReplayArguments& args) {
   namespace fs = std::filesystem;
-  using Json = nlohmann::ordered_json;
   const auto absolute = [](const std::string& path) {
     return path.empty() ? path : fs::absolute(path).lexically_normal().string();
   };
@@ -59,7 +60,7 @@ nlohmann::ordered_json settings_of(const Arguments& args) {
           {"misses", args.misses}};
 }
 
-void run(const Arguments& args, int& status) {
+void run_replay(const ReplayArguments& args, int& status) {
   ReplayOptions options;
   for (const std::string& name : args.techniques)
     options.techniques.push_back(&technique::find_technique(name));
@@ -111,7 +112,7 @@ void run(const Arguments& args, int& status) {
 void add_replay(CLI::App& app, int& status) {
   auto* command = app.add_subcommand(
       "replay", "Draw recorded strokes again with any technique, and measure the curves");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ReplayArguments>();
   command
       ->add_option("--strokes", args->strokes,
                    "mimicry-strokes files, and folders of a study's participants")
@@ -135,7 +136,7 @@ void add_replay(CLI::App& app, int& status) {
   command->add_option("--threads", args->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_replay(*args, status); });
 }
 
 }  // namespace mimicry::cli

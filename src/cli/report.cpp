@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ReportArguments {
   std::string folder;
   std::string rows = "rows.csv";
   std::string out;
@@ -58,7 +58,7 @@ void write_pictures(const Gallery& gallery, const fs::path& folder) {
   }
 }
 
-void run(Arguments args) {
+void run_report(ReportArguments args) {
   if (page_script().empty())
     throw Error(ErrorKind::unsupported,
                 "report: this build has no plots; run scripts/setup and build again");
@@ -116,7 +116,7 @@ void add_report(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "report", std::string("Make a page of tables, plots and pictures of a study's strokes") +
                     (page_script().empty() ? " (this build is without plots)" : ""));
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ReportArguments>();
   command->add_option("folder", args->folder, "With the rows of measure or replay")->required();
   command->add_option("--rows", args->rows, "The file of rows in it")->capture_default_str();
   command->add_option("-o,--out", args->out,
@@ -151,7 +151,7 @@ void add_report(CLI::App& app, int&) {
   command->add_option("--threads", args->gallery.threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_report(*args); });
 }
 
 }  // namespace mimicry::cli

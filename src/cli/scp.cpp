@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t kChunk = 1024;
 
-struct Arguments {
+struct ScpArguments {
   std::string embedding, points, out;
   bool replace_failed = false;
   int threads = 0;
 };
 
-void run(const Arguments& args, int& status) {
+void run_scp(const ScpArguments& args, int& status) {
   const std::string points_name = std::filesystem::path(args.points).filename().string();
   const io::PointRows rows = io::read_points_csv(files::read_file(args.points), points_name);
   const LoadedProjector projector(load_embedding(args.embedding),
@@ -60,7 +60,7 @@ void run(const Arguments& args, int& status) {
 
 void add_scp(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("scp", "Smooth closest points of many points");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ScpArguments>();
   command->add_option("--embedding", args->embedding, "The target's bake (mimicry bake)")
       ->required();
   command->add_option("--points", args->points, "A CSV file with columns x, y, z, in mesh units")
@@ -73,7 +73,7 @@ void add_scp(CLI::App& app, int& status) {
       "--replace-failed", args->replace_failed,
       "The closest point where the smooth one is a twentieth of the diagonal farther");
   add_threads_option(*command, args->threads);
-  command->callback([args, &status] { run(*args, status); });
+  command->callback([args, &status] { run_scp(*args, status); });
 }
 
 }  // namespace mimicry::cli

@@ -63,7 +63,7 @@ void print_addresses(const serve::Server& server, const serve::ServeOptions& opt
   std::fflush(stdout);
 }
 
-void run(const serve::ServeOptions& options) {
+void run_serve(const serve::ServeOptions& options) {
   // Threads inherit the mask: the signals come to the one that waits for them.
   sigset_t signals;
   sigemptyset(&signals);
@@ -116,7 +116,7 @@ void add_serve(CLI::App& app, int&) {
       ->capture_default_str();
   command->callback([options, megabytes] {
     options->largest_upload = static_cast<std::size_t>(*megabytes * (1 << 20));
-    run(*options);
+    run_serve(*options);
   });
 }
 

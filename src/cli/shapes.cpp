@@ -15,7 +15,9 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+using Json = nlohmann::ordered_json;
+
+struct ShapesArguments {
   std::string name;
   std::string out;
   ShapeOptions options;
@@ -23,7 +25,6 @@ struct Arguments {
 };
 
 void list_shapes(bool json) {
-  using Json = nlohmann::ordered_json;
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows;
   for (const ShapeInfo& s : builtin_shapes()) {
@@ -44,7 +45,7 @@ void list_shapes(bool json) {
     print_table({"shape", "resolution", "range", ""}, rows);
 }
 
-void run(const Arguments& args) {
+void run_shapes(const ShapesArguments& args) {
   if (args.name.empty()) return list_shapes(args.json);
   if (args.out.empty())
     throw Error(ErrorKind::invalid_input, "shapes " + args.name + ": where to? give --out FILE");
@@ -59,7 +60,7 @@ void run(const Arguments& args) {
 
 void add_shapes(CLI::App& app, int&) {
   auto* command = app.add_subcommand("shapes", "List the built-in shapes, or write one to a file");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ShapesArguments>();
   command->add_option("name", args->name, "The shape; all are listed without it");
   command->add_option("--resolution", args->options.resolution, "0: the shape's default");
   command->add_option("--seed", args->options.seed, "Of the random shapes");
@@ -68,7 +69,7 @@ void add_shapes(CLI::App& app, int&) {
   command->add_flag("--two-sided", args->options.two_sided, "noisy-cube: displace both ways");
   command->add_option("-o,--out", args->out, "File to write; its ending says the format");
   command->add_flag("--json", args->json, "The list for programs");
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_shapes(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -23,7 +23,7 @@
 namespace mimicry::cli {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::string mesh;
   std::string shape;
   std::string targets;
@@ -44,7 +44,7 @@ struct Task {
   double metres_per_unit;
 };
 
-Task published_curves(const Arguments& args, const NamedMesh& named) {
+Task published_curves(const SimulateArguments& args, const NamedMesh& named) {
   const study::TargetSet set = load_targets(args.targets);
   const std::string wanted =
       args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
@@ -71,7 +71,7 @@ void require_same_size(const NamedMesh& named, const spatial::Target& target,
                     ", or give --targets FILE with curves of this mesh");
 }
 
-Task task_of(const Arguments& args, const NamedMesh& named, const spatial::Target& target) {
+Task task_of(const SimulateArguments& args, const NamedMesh& named, const spatial::Target& target) {
   if (!args.targets.empty()) return published_curves(args, named);
   const std::string shape = args.shape.empty() ? named.name : args.shape;
   const ShapeInfo* info = find_shape(shape);
@@ -105,7 +105,7 @@ bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) 
   return false;
 }
 
-void run(const Arguments& args) {
+void run_simulate(const SimulateArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.allow_nonmanifold);
   const Task task = task_of(args, named, target);
@@ -152,7 +152,7 @@ void run(const Arguments& args) {
 void add_simulate(CLI::App& app, int&) {
   auto* command = app.add_subcommand(
       "simulate", "Make mid-air strokes as a person would who means given curves");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SimulateArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("--shape", args->shape,
                       "Whose intended curves: of a built-in shape, or a name in --targets");
@@ -177,7 +177,7 @@ void add_simulate(CLI::App& app, int&) {
                     "Accept edges with three or more faces");
   command->add_option("--scale", args->scale, "Metres per mesh unit (default: the shape's own)")
       ->check(number_between(1e-12, 1e12));
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_simulate(*args); });
 }
 
 }  // namespace mimicry::cli

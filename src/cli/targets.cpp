@@ -26,7 +26,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr render::Color kCurveColor{0.10, 0.35, 0.65};
 constexpr render::Color kKeypointColor{0.85, 0.33, 0.10};
 
-struct Arguments {
+struct TargetsArguments {
   std::string mesh;
   std::string out;
   std::string picture;  // empty: beside `out`
@@ -82,7 +82,7 @@ void set_range(const std::vector<double>& given, double unit, double& least, dou
   most = unit * given.back();
 }
 
-void run(const Arguments& args) {
+void run_targets(const TargetsArguments& args) {
   study::TargetSampling sampling = args.sampling;
   set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
   set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);
@@ -136,7 +136,7 @@ void run(const Arguments& args) {
 
 void add_targets(CLI::App& app, int&) {
   auto* command = app.add_subcommand("targets", "Sample target curves for a study on a mesh");
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<TargetsArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("-o,--out", args->out, "The file of target curves to write")->required();
   command->add_option("--picture", args->picture, "The contact sheet (PNG); default: beside --out");
@@ -177,7 +177,7 @@ void add_targets(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
                     "Accept edges with three or more faces");
-  command->callback([args] { run(*args); });
+  command->callback([args] { run_targets(*args); });
 }
 
 }  // namespace mimicry::cli

@@ -1,7 +1,6 @@
 #include <mimicry/curve/curve_builder.h>
 
 namespace mimicry::curve {
-namespace {
 
 PieceKind kind_of(geodesic::PathLabel label) {
   switch (label) {
@@ -16,8 +15,6 @@ PieceKind kind_of(geodesic::PathLabel label) {
   }
   return PieceKind::chord;
 }
-
-}  // namespace
 
 CurveBuilder::CurveBuilder(const TriangleMesh& mesh, const HalfEdges& half_edges)
     : paths_(mesh, half_edges) {}

@@ -21,12 +21,6 @@ bool same_point(const CurvePoint& a, const CurvePoint& b) {
   return a.surface.face == b.surface.face && a.surface.bary == b.surface.bary;
 }
 
-PieceKind kind_of(geodesic::PathLabel label) {
-  return label == geodesic::PathLabel::same_face  ? PieceKind::same_face
-         : label == geodesic::PathLabel::shortest ? PieceKind::shortest
-                                                  : PieceKind::locally_shortest;
-}
-
 // The points from p to q as positions.
 void polyline_to(const TriangleMesh& mesh, const CurvePoint& p,
                  const std::vector<Crossing>& crossings, const CurvePoint& q,

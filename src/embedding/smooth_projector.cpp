@@ -20,10 +20,6 @@ constexpr double kFlat = 1e-10;
 // Barycentric coordinates nearer to 0 than this are those of a point on a face.
 constexpr double kOnFace = 1e-9;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // Finite, and of at most kLargest: told from the bits, since comparing what is not finite may trap.
 bool is_in_range(double x) {
   const double size = std::abs(x);

@@ -11,7 +11,7 @@
 namespace mimicry::geodesic {
 
 // Relative differences of distances below this are rounding.
-static constexpr double kSame = 1e-12;
+static constexpr double kSameWindow = 1e-12;
 // A source nearer to an edge than this part of the edge's length all but lies on it.
 static constexpr double kOnTheEdge = 1e-7;
 
@@ -24,7 +24,7 @@ static Vec2 between(const Vec2& from, const Vec2& to) {
   return {to.x() - from.x(), to.y() - from.y()};
 }
 
-static double angle_between(const Vec3& a, const Vec3& b) {
+static double angle_from_to(const Vec3& a, const Vec3& b) {
   const double cross = a.cross(b).norm();
   const double dot = a.dot(b);
   return cross == 0.0 && dot == 0.0 ? 0.0 : std::atan2(cross, dot);
@@ -58,7 +58,7 @@ void ExactGeodesics::State::add_window(Index h, double begin, double end, double
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
   const double sigma = lists.sigma(root);
   const auto is_nearer = [&](double around, double place) {
-    const double rest = around * (1.0 + kSame) - sigma;
+    const double rest = around * (1.0 + kSameWindow) - sigma;
     return rest < 0.0 || rest * rest < (place - x) * (place - x) + y * y;
   };
   if (is_nearer(at(half_edges.tail(h)) + end, end)) return;
@@ -312,7 +312,7 @@ void ExactGeodesics::State::start(Index number) {
       if (reach_vertex(half_edges.tail(h), source.distance + to_tail.norm(), kThroughFaces)) {
         const Vec3 along = mesh.corner(face, (k + 1) % 3) - mesh.corner(face, k);
         arrival_angles[static_cast<std::size_t>(half_edges.tail(h))] =
-            surface.start_angles[static_cast<std::size_t>(h)] + angle_between(along, to_tail);
+            surface.start_angles[static_cast<std::size_t>(h)] + angle_from_to(along, to_tail);
       }
       if (h == own_edge || frame(h).length == 0.0) continue;
       const Vec3 along = (mesh.corner(face, (k + 1) % 3) - mesh.corner(face, k)) / frame(h).length;

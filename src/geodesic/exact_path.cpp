@@ -7,7 +7,7 @@ namespace mimicry::geodesic {
 
 // Ways whose lengths differ relatively by less are one, and the one over a vertex is taken: it
 // cannot lead around the vertex without coming nearer.
-static constexpr double kSame = 1e-13;
+static constexpr double kSameStep = 1e-13;
 
 Vec2 ExactGeodesics::State::in_frame(Index h, const SurfacePoint& p) const {
   const EdgeFrame& f = frame(h);
@@ -42,14 +42,14 @@ Step ExactGeodesics::State::best_step(const SurfacePoint& p, Index entered, doub
     const Index v = mesh.face(p.face)[static_cast<std::size_t>(k)];
     if (!(at(v) < below)) continue;
     const double d = at(v) + (position - mesh.corner(p.face, k)).norm();
-    if (d <= best.distance + kSame * d) best = {Step::Kind::vertex, d, v, 0.0};
+    if (d <= best.distance + kSameStep * d) best = {Step::Kind::vertex, d, v, 0.0};
   }
   auto source = std::lower_bound(face_sources.begin(), face_sources.end(),
                                  std::pair<Index, Index>(p.face, 0));
   for (; source != face_sources.end() && source->first == p.face; ++source) {
     const Source& s = sources[static_cast<std::size_t>(source->second)];
     const double d = s.distance + (position - mesh.position(s.point)).norm();
-    if (d <= best.distance + kSame * d) best = {Step::Kind::source, d, source->second, 0.0};
+    if (d <= best.distance + kSameStep * d) best = {Step::Kind::source, d, source->second, 0.0};
   }
   return best;
 }
@@ -99,7 +99,7 @@ ExactPath ExactGeodesics::State::path_to(const SurfacePoint& target) const {
         if (source_face != face) continue;
         const Source& s = sources[static_cast<std::size_t>(number)];
         const double d = s.distance + (mesh.position(v) - mesh.position(s.point)).norm();
-        if (d <= best.distance + kSame * d) best = {Step::Kind::source, d, number, 0.0};
+        if (d <= best.distance + kSameStep * d) best = {Step::Kind::source, d, number, 0.0};
       }
     }
     return best;

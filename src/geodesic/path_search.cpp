@@ -5,7 +5,7 @@
 namespace mimicry::geodesic {
 
 // Relative differences below this are rounding.
-static constexpr double kSame = 1e-12;
+static constexpr double kSameLength = 1e-12;
 
 PathSearch::PathSearch(const TriangleMesh& mesh, const HalfEdges& half_edges)
     : mesh_(mesh),
@@ -56,8 +56,9 @@ void PathSearch::add_window(Index h, double length, double begin, double end, do
   const double d_begin = sigma + std::sqrt((begin - x) * (begin - x) + y * y);
   const double d_end = sigma + std::sqrt((end - x) * (end - x) + y * y);
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
-  if (vertex_distance(half_edges_.tail(h)) + end < d_end * (1.0 - kSame)) return;
-  if (vertex_distance(half_edges_.head(h)) + (length - begin) < d_begin * (1.0 - kSame)) return;
+  if (vertex_distance(half_edges_.tail(h)) + end < d_end * (1.0 - kSameLength)) return;
+  if (vertex_distance(half_edges_.head(h)) + (length - begin) < d_begin * (1.0 - kSameLength))
+    return;
 
   const double b0 = length - end;
   const double b1 = length - begin;
@@ -66,7 +67,7 @@ void PathSearch::add_window(Index h, double length, double begin, double end, do
   const Vec2 t = in_frame(entered, length, target_);
   const double cross = sx + (t.x() - sx) * (y / (y + t.y()));
   double key;
-  const bool straight = cross >= b0 - kSame * length && cross <= b1 + kSame * length;
+  const bool straight = cross >= b0 - kSameLength * length && cross <= b1 + kSameLength * length;
   if (straight) {
     key = sigma + std::sqrt((t.x() - sx) * (t.x() - sx) + (t.y() + y) * (t.y() + y));
   } else {

@@ -13,7 +13,7 @@ using curve::Piece;
 using curve::PieceKind;
 using curve::ProjectedCurve;
 
-constexpr const char* kFormat = "mimicry-curves";
+constexpr const char* kCurvesFormat = "mimicry-curves";
 
 constexpr std::array<std::pair<PieceKind, const char*>, 5> kKinds = {
     {{PieceKind::same_face, "same-face"},
@@ -158,7 +158,7 @@ std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh) {
   const OrderedJson target = {
       {"name", set.target}, {"vertices", mesh.vertex_count()}, {"faces", mesh.face_count()}};
   const auto replace = OrderedJson::error_handler_t::replace;
-  std::string out = "{\"format\":\"" + std::string(kFormat) +
+  std::string out = "{\"format\":\"" + std::string(kCurvesFormat) +
                     "\",\"version\":" + std::to_string(kCurvesVersion) +
                     ",\"target\":" + target.dump(-1, ' ', false, replace) + ",\"curves\":[";
   const char* separator = "\n";
@@ -179,12 +179,12 @@ CurveSet read_curves_json(std::string_view bytes, std::string_view name, const T
   } catch (const Json::exception& error) {
     json_fail(file, error.what());
   }
-  if (text(member(document, "format", file), file + ": format") != kFormat)
-    json_fail(file, "is not a " + std::string(kFormat) + " file");
+  if (text(member(document, "format", file), file + ": format") != kCurvesFormat)
+    json_fail(file, "is not a " + std::string(kCurvesFormat) + " file");
   const Json& version = member(document, "version", file);
   if (version != kCurvesVersion)
-    throw Error(ErrorKind::unsupported, file + ": version " + version.dump() + " of " + kFormat +
-                                            " is not known; update the program");
+    throw Error(ErrorKind::unsupported, file + ": version " + version.dump() + " of " +
+                                            kCurvesFormat + " is not known; update the program");
   CurveSet set;
   const Json& target = member(document, "target", file);
   set.target = text(member(target, "name", file), file + ": target: name");

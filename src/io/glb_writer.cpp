@@ -1,17 +1,14 @@
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 #include <mimicry/base/error.h>
 
 #include "io/binary.h"
 #include "io/glb.h"
+#include "io/json.h"
 #include "io/mesh_writers.h"
 
 namespace mimicry::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
@@ -22,11 +19,11 @@ constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
 struct Scene {
   Vec3 origin = Vec3::Zero();  // of the numbers in the file; the nodes carry it
   std::string binary;
-  Json views = Json::array();
-  Json accessors = Json::array();
-  Json meshes = Json::array();
-  Json nodes = Json::array();
-  Json materials = Json::array();
+  OrderedJson views = OrderedJson::array();
+  OrderedJson accessors = OrderedJson::array();
+  OrderedJson meshes = OrderedJson::array();
+  OrderedJson nodes = OrderedJson::array();
+  OrderedJson materials = OrderedJson::array();
 
   // The bytes from `start` to the end become a view with an accessor; its number is returned.
   std::size_t close_view(std::size_t start, int target, int component, Index count,
@@ -71,9 +68,10 @@ struct Scene {
   }
 
   void add(const GlbPart& part) {
-    Json attributes = {{"POSITION", add_positions(*part.mesh)}};
+    OrderedJson attributes = {{"POSITION", add_positions(*part.mesh)}};
     if (!part.normals.empty()) attributes["NORMAL"] = add_normals(part.normals);
-    Json primitive = {{"attributes", attributes}, {"indices", add_faces(*part.mesh)}, {"mode", 4}};
+    OrderedJson primitive = {
+        {"attributes", attributes}, {"indices", add_faces(*part.mesh)}, {"mode", 4}};
     if (part.color) {
       const auto& [r, g, b] = *part.color;
       materials.push_back({{"pbrMetallicRoughness",
@@ -82,8 +80,8 @@ struct Scene {
                              {"roughnessFactor", 0.8}}}});
       primitive["material"] = materials.size() - 1;
     }
-    Json mesh = {{"primitives", Json::array({primitive})}};
-    Json node = {{"mesh", meshes.size()}};
+    OrderedJson mesh = {{"primitives", OrderedJson::array({primitive})}};
+    OrderedJson node = {{"mesh", meshes.size()}};
     if (origin != Vec3::Zero()) node["translation"] = {origin.x(), origin.y(), origin.z()};
     if (!part.name.empty()) mesh["name"] = node["name"] = part.name;
     meshes.push_back(mesh);
@@ -91,19 +89,19 @@ struct Scene {
   }
 
   std::string text() const {
-    Json numbers = Json::array();
+    OrderedJson numbers = OrderedJson::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) numbers.push_back(i);
-    Json root;
+    OrderedJson root;
     root["asset"] = {{"version", "2.0"}, {"generator", "mimicry"}};
     root["scene"] = 0;
-    root["scenes"] = Json::array({{{"nodes", numbers}}});
+    root["scenes"] = OrderedJson::array({{{"nodes", numbers}}});
     root["nodes"] = nodes;
     root["meshes"] = meshes;
     if (!materials.empty()) root["materials"] = materials;
     root["accessors"] = accessors;
     root["bufferViews"] = views;
-    root["buffers"] = Json::array({{{"byteLength", binary.size()}}});
-    std::string padded = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+    root["buffers"] = OrderedJson::array({{{"byteLength", binary.size()}}});
+    std::string padded = root.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     padded.resize((padded.size() + 3) / 4 * 4, ' ');
     return padded;
   }

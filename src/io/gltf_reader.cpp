@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include <mimicry/base/error.h>
 
 #include "io/binary.h"
@@ -21,7 +19,6 @@
 namespace mimicry::io {
 namespace {
 
-using Json = nlohmann::json;
 using Transform = Eigen::Transform<double, 3, Eigen::AffineCompact>;
 
 constexpr std::uint32_t kGlbMagic = 0x46546c67;     // "glTF"

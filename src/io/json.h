@@ -38,6 +38,12 @@ inline const Json& member(const Json& object, const char* key, const std::string
   return *it;
 }
 
+inline const Json& array(const Json& object, const char* key, const std::string& where) {
+  const Json& value = member(object, key, where);
+  if (!value.is_array()) json_fail(where, std::string("'") + key + "' is not an array");
+  return value;
+}
+
 inline double number(const Json& value, const std::string& where) {
   if (!value.is_number()) json_fail(where, "is not a number");
   return value.get<double>();

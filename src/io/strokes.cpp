@@ -13,7 +13,7 @@ using stroke::Intention;
 using stroke::Pose;
 using stroke::Stroke;
 
-constexpr const char* kFormat = "mimicry-strokes";
+constexpr const char* kStrokesFormat = "mimicry-strokes";
 
 Pose read_pose(const Json& value, const std::string& where) {
   return {vector<3>(member(value, "position", where), where + ": position"),
@@ -79,7 +79,7 @@ Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
 }
 
 // What stands before the strokes: the parser hands the members over one by one.
-struct Header {
+struct StrokesHeader {
   std::string name;
   std::string format;
   std::int64_t version = 0;
@@ -88,14 +88,14 @@ struct Header {
   void set(const std::string& key, const Json& value) {
     if (key == "format") {
       format = value.is_string() ? value.get<std::string>() : "";
-      if (format != kFormat)
+      if (format != kStrokesFormat)
         throw Error(ErrorKind::invalid_input,
-                    name + ": is not a " + kFormat + " file ('format' says otherwise)");
+                    name + ": is not a " + kStrokesFormat + " file ('format' says otherwise)");
     } else if (key == "version") {
       version = value.is_number_integer() ? value.get<std::int64_t>() : -1;
       if (version != kStrokesVersion)
         throw Error(ErrorKind::unsupported,
-                    name + ": version " + value.dump() + " of " + kFormat +
+                    name + ": version " + value.dump() + " of " + kStrokesFormat +
                         " is not known (this program reads " + std::to_string(kStrokesVersion) +
                         "); update the program or export the strokes again");
     } else if (key == "convention") {
@@ -141,7 +141,7 @@ OrderedJson to_json(const Intention& intention) {
 
 void read_strokes(std::string_view bytes, std::string_view name,
                   const std::function<void(Stroke&&)>& visit, std::size_t first) {
-  Header header;
+  StrokesHeader header;
   header.name = name;
   std::string key;
   std::size_t count = first;
@@ -178,8 +178,8 @@ void read_strokes(std::string_view bytes, std::string_view name,
                 header.name + ": stroke " + std::to_string(count) + ": " + error.what());
   }
   if (!has_strokes)
-    throw Error(ErrorKind::invalid_input,
-                header.name + ": is not a " + kFormat + " file (there is no array 'strokes')");
+    throw Error(ErrorKind::invalid_input, header.name + ": is not a " + kStrokesFormat +
+                                              " file (there is no array 'strokes')");
 }
 
 std::vector<Stroke> read_strokes(std::string_view bytes, std::string_view name) {
@@ -190,7 +190,7 @@ std::vector<Stroke> read_strokes(std::string_view bytes, std::string_view name) 
 
 StrokeWriter::StrokeWriter(Sink sink, const CoordinateConvention& convention)
     : sink_(std::move(sink)), convention_(&convention) {
-  sink_("{\"format\":\"" + std::string(kFormat) +
+  sink_("{\"format\":\"" + std::string(kStrokesFormat) +
         "\",\"version\":" + std::to_string(kStrokesVersion) + ",\"convention\":\"" +
         std::string(convention.name) + "\",\"strokes\":[");
 }

@@ -62,7 +62,7 @@ Index one_based(const Json& value, const std::string& where) {
   return static_cast<Index>(n) - 1;
 }
 
-RecordedFrame read_frame(const Json& value, const std::string& where) {
+RecordedFrame read_recorded_frame(const Json& value, const std::string& where) {
   RecordedFrame frame;
   frame.point = xyz(value, "PT", where);
   frame.normal = xyz(value, "N", where);
@@ -95,7 +95,7 @@ RecordedPiece read_piece(const Json& value, const std::string& where) {
   if (!frames.is_array()) json_fail(where, "'F' is not an array");
   piece.frames.reserve(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i)
-    piece.frames.push_back(read_frame(frames[i], where + ": frame " + std::to_string(i)));
+    piece.frames.push_back(read_recorded_frame(frames[i], where + ": frame " + std::to_string(i)));
   piece.method = text(member(value, "M", where), where + ": M");
   piece.model_to_world = read_matrix(member(value, "ModelMatrix", where), where + ": ModelMatrix");
   return piece;

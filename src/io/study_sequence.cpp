@@ -17,12 +17,6 @@ bool is_list_of_lists(const Json& value) {
   return value.is_array() && !value.empty() && value.front().is_array();
 }
 
-const Json& array(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_array()) json_fail(where, std::string("'") + key + "' is not an array");
-  return value;
-}
-
 Numbers numbers(const Json& value, const std::string& where) {
   if (!value.is_array()) json_fail(where, "is not an array of numbers");
   Numbers list;

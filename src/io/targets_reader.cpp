@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kRounding = 1e-3;  // the published ones are off by up to 8e-5
 
-const Json& array(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_array()) json_fail(where, std::string("'") + key + "' is not an array");
-  return value;
-}
-
 SurfacePoint read_point(const Json& face, const Json& bary, const std::string& where) {
   SurfacePoint p{index(face, where), vector<3>(bary, where)};
   if (p.bary.minCoeff() < -kRounding || std::abs(p.bary.sum() - 1) > kRounding)

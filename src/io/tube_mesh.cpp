@@ -15,14 +15,14 @@ constexpr double kRoundedBend = kPi / 12.0;  // 1 - cos of half of it is 0.9 %
 constexpr double kMinStep = 1e-6;            // of the radius
 
 /// Right-handed: `along` runs with the curve, `side` and along x side span the ring.
-struct Frame {
+struct TubeFrame {
   Vec3 along;
   Vec3 side;
 };
 
 struct Ring {
   Vec3 center;
-  Frame frame;
+  TubeFrame frame;
   double at;  // arc length
 };
 
@@ -60,7 +60,7 @@ struct Turn {
   double angle;
 };
 
-Turn turn_between(const Frame& from, const Vec3& along) {
+Turn turn_between(const TubeFrame& from, const Vec3& along) {
   const Vec3 cross = from.along.cross(along);
   const double angle = std::atan2(cross.norm(), from.along.dot(along));
   // Below this the axis is rounding noise; a reversal takes one that is square to the curve.
@@ -68,9 +68,9 @@ Turn turn_between(const Frame& from, const Vec3& along) {
   return {cross.normalized(), angle};
 }
 
-Frame turned(const Frame& frame, const Turn& turn, double share) {
+TubeFrame turned(const TubeFrame& frame, const Turn& turn, double share) {
   const Eigen::AngleAxisd rotation(share * turn.angle, turn.axis);
-  Frame result;
+  TubeFrame result;
   result.along = (rotation * frame.along).normalized();
   const Vec3 side = rotation * frame.side;
   result.side = (side - side.dot(result.along) * result.along).normalized();
@@ -78,8 +78,8 @@ Frame turned(const Frame& frame, const Turn& turn, double share) {
 }
 
 /// The rings of a joint, and the frame that leaves it.
-Frame add_joint(const Vec3& center, double at, const Frame& before, const Vec3& along,
-                std::vector<Ring>& rings) {
+TubeFrame add_joint(const Vec3& center, double at, const TubeFrame& before, const Vec3& along,
+                    std::vector<Ring>& rings) {
   const Turn turn = turn_between(before, along);
   if (turn.angle <= kRoundedBend) {
     rings.push_back({center, turned(before, turn, 0.5), at});
@@ -89,7 +89,7 @@ Frame add_joint(const Vec3& center, double at, const Frame& before, const Vec3& 
       rings.push_back({center, turned(before, turn, static_cast<double>(i) / steps), at});
     }
   }
-  Frame after = turned(before, turn, 1.0);
+  TubeFrame after = turned(before, turn, 1.0);
   after.along = along;  // no drift
   after.side = (after.side - after.side.dot(along) * along).normalized();
   return after;
@@ -97,7 +97,8 @@ Frame add_joint(const Vec3& center, double at, const Frame& before, const Vec3& 
 
 /// Turns the rings of a closed tube about the curve, growing with arc length, so that the last
 /// frame meets the first.
-void spread_twist(std::vector<Ring>& rings, const Frame& first, const Frame& last, double length) {
+void spread_twist(std::vector<Ring>& rings, const TubeFrame& first, const TubeFrame& last,
+                  double length) {
   const double twist =
       std::atan2(first.along.dot(last.side.cross(first.side)), last.side.dot(first.side));
   for (Ring& ring : rings) {
@@ -110,7 +111,7 @@ class Builder {
  public:
   Builder(double radius, int sides) : radius_(radius), sides_(sides) {}
 
-  void add_ring(const Vec3& center, const Frame& frame, double latitude) {
+  void add_ring(const Vec3& center, const TubeFrame& frame, double latitude) {
     const Vec3 other = frame.along.cross(frame.side);
     for (int k = 0; k < sides_; ++k) {
       const double a = 2.0 * kPi * k / sides_;
@@ -176,10 +177,10 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
   }
   if (along.empty()) along.push_back(Vec3::UnitY());
 
-  const Frame first{along.front(), along.front().unitOrthogonal()};
+  const TubeFrame first{along.front(), along.front().unitOrthogonal()};
   std::vector<Ring> rings;
   if (!closed) rings.push_back({kept.front(), first, 0.0});
-  Frame frame = first;
+  TubeFrame frame = first;
   double at = 0.0;
   for (std::size_t i = 1; i < along.size() + (closed ? 1 : 0); ++i) {
     at += (kept[i % count] - kept[i - 1]).stableNorm();
@@ -203,8 +204,8 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
   Builder builder(options.radius, options.sides);
   const Vec3 head = rings.front().center;
   const Vec3 tail = rings.back().center;
-  const Frame head_frame = rings.front().frame;
-  const Frame tail_frame = rings.back().frame;
+  const TubeFrame head_frame = rings.front().frame;
+  const TubeFrame tail_frame = rings.back().frame;
   if (!closed) builder.add_pole(head, -head_frame.along);
   const Index start = builder.next_vertex();
   const auto latitude = [&](int i) { return 0.5 * kPi * i / (cap_rings + 1); };

@@ -13,8 +13,6 @@
 namespace mimicry {
 namespace {
 
-constexpr double kTau = 2 * std::numbers::pi;
-
 // rows x columns quads on a surface that closes in both directions.
 template <class Position>
 TriangleMesh closed_sheet(int rows, int columns, Position position) {

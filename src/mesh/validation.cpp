@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kLargestCoordinate = 1e100;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 bool is_valid(const Vec3& p) {
   return is_finite(p) && p.cwiseAbs().maxCoeff() <= kLargestCoordinate;
 }

@@ -12,8 +12,6 @@
 namespace mimicry::study {
 namespace {
 
-constexpr double kTau = 2 * std::numbers::pi;
-
 // A path near the surface, u in [0, 1], in the shape's units.
 struct Guide {
   const char* name;

@@ -14,11 +14,7 @@ namespace mimicry::study {
 namespace {
 
 // Streams of a person's seed; trials use seeds of their own.
-enum Stream : std::uint64_t { kPerson, kOrder, kStroke, kRecall };
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
+enum PersonStream : std::uint64_t { kPerson, kOrder, kStroke, kRecall };
 
 double draw(const Spread& spread, Random& random) {
   return spread.median * std::exp(spread.log_deviation * random.normal());

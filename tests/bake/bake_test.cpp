@@ -13,10 +13,6 @@
 namespace mimicry::bake {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 double volume(const Embedding& e, const std::array<Index, 4>& t) {
   const Vec3& a = e.positions[at(t[0])];
   return (e.positions[at(t[1])] - a)

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,6 +19,12 @@ using Quat = Eigen::Quaterniond;
 using Index = std::int32_t;
 inline constexpr Index kNone = -1;
 
+/// A number as the index of an array, which it must not be negative for.
+constexpr std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kTau = 2.0 * std::numbers::pi;  // a full turn
 
 }  // namespace mimicry

@@ -8,6 +8,9 @@
 
 namespace mimicry::curve {
 
+/// What joins two points of a curve; of two that no path joins, a chord.
+PieceKind kind_of(geodesic::PathLabel label);
+
 /// Appends points to a curve as they are drawn, and joins each to the one before by the shortest
 /// path on the surface (geodesic/local_path.h). What has been appended never changes. Refers to
 /// mesh and half_edges, which must outlive it.

@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void refuse_row(const std::string& what) {
   throw Error(ErrorKind::invalid_input, what);
 }
 
 std::size_t number_of(const std::string& cell, const char* what) {
   const auto number = io::parse_integer(cell);
-  if (!number || *number < 0) fail(std::string("the row has no ") + what);
+  if (!number || *number < 0) refuse_row(std::string("the row has no ") + what);
   return static_cast<std::size_t>(*number);
 }
 
@@ -55,11 +55,12 @@ std::string DrawnStrokes::path_of(const StudyRow& row) const {
   if (known == sources_.files.end())
     return (fs::path(sources_.recordings) / row.participant).string();
   if (known->second.empty())
-    fail("several strokes that were replayed are called " + row.participant +
-         "; say which with --recordings");
+    refuse_row("several strokes that were replayed are called " + row.participant +
+               "; say which with --recordings");
   std::error_code none;
   if (!fs::exists(known->second, none))
-    fail(known->second + ": is no longer where it was replayed from; say where with --recordings");
+    refuse_row(known->second +
+               ": is no longer where it was replayed from; say where with --recordings");
   return known->second;
 }
 
@@ -70,7 +71,7 @@ const study::RecordedStroke& DrawnStrokes::recording(const StudyRow& row, const 
     found = recordings_.emplace(path, io::read_recording(files::read_file(path), path)).first;
   const std::size_t index = number_of(row.index, "index");
   if (index >= found->second.size())
-    fail(path + ": has only " + std::to_string(found->second.size()) + " strokes");
+    refuse_row(path + ": has only " + std::to_string(found->second.size()) + " strokes");
   return found->second[index];
 }
 
@@ -81,7 +82,7 @@ const stroke::Stroke& DrawnStrokes::stroke_of_file(const StudyRow& row) {
     found = files_.emplace(path, io::read_strokes(files::read_file(path), path)).first;
   const std::size_t index = number_of(row.index, "index");
   if (index >= found->second.size())
-    fail(path + ": has only " + std::to_string(found->second.size()) + " strokes");
+    refuse_row(path + ": has only " + std::to_string(found->second.size()) + " strokes");
   return found->second[index];
 }
 
@@ -103,7 +104,7 @@ DrawnStroke DrawnStrokes::recorded(const StudyRow& row) {
   const study::RecordedStroke& recorded = recording(row, file);
   const std::string& word = study::method_of(recorded);
   const Index said = study::method_number(word);
-  if (said != kNone && said != method) fail(file + " holds strokes of M '" + word + "'");
+  if (said != kNone && said != method) refuse_row(file + " holds strokes of M '" + word + "'");
   DrawnStroke drawn;
   drawn.target = shape(row.shape).target.get();
   drawn.stroke = study::stroke_of(recorded);
@@ -136,7 +137,7 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   if (drawn.stroke.intended)
     for (const SurfacePoint& p : drawn.stroke.intended->points) {
       if (p.face >= drawn.target->mesh().face_count())
-        fail("its intended curve is on another mesh");
+        refuse_row("its intended curve is on another mesh");
       drawn.intended.push_back(drawn.target->mesh().position(p));
     }
   else

@@ -15,7 +15,7 @@ namespace mimicry::cli {
 namespace {
 
 // White target curves must stand out in small pictures.
-constexpr render::Color kIntendedColor{1.0, 1.0, 0.97};
+constexpr render::Color kIntendedThumbnail{1.0, 1.0, 0.97};
 constexpr render::Color kSurfaceColor{0.66, 0.66, 0.68};
 
 // The `count` worst and best strokes of a method that count.
@@ -65,7 +65,7 @@ std::string draw(const StudyRow& row, DrawnStrokes& strokes, int threads) {
   for (const stroke::Frame& frame : drawn.stroke.frames)
     pen.push_back(drawn.stroke.model_to_world.inverse_point(frame.controller.position));
   add(std::move(pen), 0.5, render::kStrokeColor, 0.2);
-  add(drawn.intended, 0.85, kIntendedColor, 1.0);
+  add(drawn.intended, 0.85, kIntendedThumbnail, 1.0);
   for (auto& part : curve::polylines(drawn.curve, mesh))
     add(std::move(part), 1.0, render::technique_color(row.method), 1.0);
   render::RenderOptions options;

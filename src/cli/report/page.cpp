@@ -62,7 +62,7 @@ std::string count(std::size_t n, const std::string& noun) {
   return count(n, noun, noun + "s");
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined_names(const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& n : names) all += (all.empty() ? "" : ", ") + escaped(n);
   return all;
@@ -201,9 +201,9 @@ std::string introduction(const Summary& summary, const std::vector<RejectedStrok
   const std::size_t strokes = summary.counted.size() + summary.failed.size();
   std::string text = count(strokes, "measured stroke");
   if (summary.participants > 0) text += " of " + count(summary.participants, "participant");
-  text += " on " + count(summary.shapes.size(), "shape") + " (" + joined(summary.shapes) +
-          ") with " + count(summary.methods.size(), "technique") + " (" + joined(summary.methods) +
-          "). " + std::to_string(summary.counted.size()) + " (" +
+  text += " on " + count(summary.shapes.size(), "shape") + " (" + joined_names(summary.shapes) +
+          ") with " + count(summary.methods.size(), "technique") + " (" +
+          joined_names(summary.methods) + "). " + std::to_string(summary.counted.size()) + " (" +
           percent(static_cast<double>(summary.counted.size()) / static_cast<double>(strokes)) +
           ") pass the filters";
   text += ".";

@@ -11,7 +11,7 @@ namespace mimicry::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // A study that was moved as a whole keeps its inner paths.
 std::string found(const std::string& path, const fs::path& then, const fs::path& now) {
