@@ -1,7 +1,8 @@
 // What it takes until smooth closest points can be asked for, from a file on the disk:
 //   load_bench FILE.mimicry ...
 // Each step on its own, the least and the median of nine, on one thread, the file in the page
-// cache.
+// cache; beside it, in the same run, what the system takes to hand out as much memory as the
+// projector holds, which no loader can do without.
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/base/large_vector.h>
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/embedding_file.h>
@@ -42,7 +44,7 @@ void print(const char* step, std::vector<double> ms) {
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string file = argv[i];
-    std::vector<double> parse, target, projector, all;
+    std::vector<double> parse, target, projector, all, memory_alone;
     std::size_t bytes = 0, memory = 0;
     for (int pass = 0; pass < 9; ++pass) {
       std::optional<embedding::Embedding> e;
@@ -63,6 +65,10 @@ int main(int argc, char** argv) {
         p.emplace(std::move(*e), *t);
       }
       memory = p->memory_bytes();
+      {
+        const Timer timer(memory_alone);
+        const LargeVector<char> fresh(memory);
+      }
       all.push_back(parse.back() + projector.back());
     }
     std::printf("%s: %.1f MB, the projector holds %.1f MB\n", file.c_str(), 1e-6 * double(bytes),
@@ -70,6 +76,7 @@ int main(int argc, char** argv) {
     print("map, checksum, check and copy", parse);
     print("projector", projector);
     print("the load: these two", all);
+    print("memory alone: filled with zeros", memory_alone);
     print("target (the mesh's own)", target);
   }
   return 0;

@@ -36,10 +36,23 @@ bool is_regular(const Vec3& b) {
   return b.minCoeff() >= -0.3 && s > 0.2 * (size.sum() - size.maxCoeff());
 }
 
-// All vectors lie in one open half-plane, kMargin away from its edge. The cone of those so far is
-// widened by each that lies outside; a vector that cannot widen it to less than a half-turn ends
-// it.
+// All vectors lie in one open half-plane, kMargin away from its edge. Mostly their mean shows it.
+// Where it does not, the cone of those so far is widened by each that lies outside; a vector that
+// cannot widen it to less than a half-turn ends it.
 bool excludes_zero(const Vec2* c, std::size_t count) {
+  double largest2 = c[0].squaredNorm();
+  Vec2 sum = c[0];
+  for (std::size_t i = 1; i < count; ++i) {
+    largest2 = std::max(largest2, c[i].squaredNorm());
+    sum += c[i];
+  }
+  const auto are_before = [&](const Vec2& axis) {
+    double least = axis.dot(c[0]);
+    for (std::size_t i = 1; i < count; ++i) least = std::min(least, axis.dot(c[i]));
+    return least > 0.0 && least * least > kMargin * kMargin * largest2 * axis.squaredNorm();
+  };
+  if (are_before(sum)) return true;
+
   Vec2 right = c[0], left = c[0];
   for (std::size_t i = 1; i < count; ++i) {
     const double from_right = cross(right, c[i]), to_left = cross(c[i], left);
@@ -55,16 +68,8 @@ bool excludes_zero(const Vec2* c, std::size_t count) {
   }
   const double right_length = right.norm(), left_length = left.norm();
   if (!(right_length > 0.0 && left_length > 0.0)) return false;
-  Vec2 axis = right / right_length + left / left_length;
-  const double length = axis.norm();
-  if (!(length > kMargin)) return false;
-  axis /= length;
-  double least = kInfinity, largest = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    least = std::min(least, axis.dot(c[i]));
-    largest = std::max(largest, c[i].squaredNorm());
-  }
-  return least > kMargin * std::sqrt(largest);
+  const Vec2 axis = right / right_length + left / left_length;
+  return axis.norm() > kMargin && are_before(axis);
 }
 
 inline Mat2 polar_factor(const Mat2& m) {
@@ -91,7 +96,15 @@ Mat2 nearest_orthogonal(const Mat2& m) {
   return polar_factor(m);
 }
 
-FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basis*, 3>& t) {
+FaceFrames::FaceFrames(const std::array<Mat2, 3>& from, const std::array<Mat2, 3>& to) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Mat2& m = k < 3 ? from[k] : to[k - 3];
+    first_column_[k] = m.col(0);
+    if (m.determinant() < 0.0) reflections_ |= 1U << k;
+  }
+}
+
+FaceFrames make_frames(const std::array<const Basis*, 3>& t) {
   // All that Procrustes needs of the pairs' sums s_e = R_e T_e + T_next are the products s_f s_e^T,
   // and those of T.
   std::array<std::array<Mat2, 3>, 3> product;  // T_i T_j^T
@@ -129,26 +142,17 @@ FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basi
     if (change * change < kSettled * kSettled * last_change) break;
     last_change = change;
   }
-  FaceFrames frames;
-  for (std::size_t e = 0; e < 3; ++e) {
-    frames.from[e] = turn[e] * along[e];
-    frames.to[e] = turn[e];
-  }
-  const std::array<Vec8, 2> side = {x[1] - x[0], x[2] - x[0]};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t l = 0; l < 2; ++l) frames.offset[i][l] = *t[i] * side[l];
-  return frames;
+  std::array<Mat2, 3> from;
+  for (std::size_t e = 0; e < 3; ++e) from[e] = turn[e] * along[e];
+  return {from, turn};
 }
 
-FaceEquation::FaceEquation(const FaceFrames& frames, const std::array<Vec2, 3>& w) {
-  auto& u = u_;
-  for (std::size_t i = 0; i < 3; ++i)
-    u[i] = {w[i], w[i] - frames.offset[i][0], w[i] - frames.offset[i][1]};
-
+FaceEquation::FaceEquation(const FaceFrames& frames, const std::array<std::array<Vec2, 3>, 3>& u)
+    : u_(u) {
   mixed_.fill(Vec2::Zero());
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = next(i), k = next(j);
-    const Mat2 &from = frames.from[i], &to = frames.to[i];
+    const Mat2 from = frames.from(i), to = frames.to(i);
     const Vec2 ii = from * u[i][i], ij = from * u[i][j], ik = from * u[i][k];
     const Vec2 ji = to * u[j][i], jj = to * u[j][j], jk = to * u[j][k];
     next_[i] = ii;

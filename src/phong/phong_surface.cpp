@@ -8,10 +8,6 @@
 namespace mimicry::phong {
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 constexpr int kSteps = 6;
 
 // Squared distance of (s, t) from the triangle (0, 0), (along, 0), (across, height).
@@ -35,23 +31,22 @@ double triangle_distance2(double s, double t, double along, double across, doubl
   return best < kInfinity ? best : 0.0;
 }
 
-}  // namespace
-
-Eigen::AlignedBox<double, kDimension> PhongSurface::Flat::box() const {
-  const Vec8 x1 = x0 + along * axis0, x2 = x0 + across * axis0 + height * axis1;
-  // The corners have been rounded on their way through the plane.
-  const Vec8 pad = Vec8::Constant(
-      1e-14 * (x0.cwiseAbs().maxCoeff() + std::abs(along) + std::abs(across) + std::abs(height)));
-  return {x0.cwiseMin(x1).cwiseMin(x2) - pad, x0.cwiseMax(x1).cwiseMax(x2) + pad};
-}
-
-double PhongSurface::Flat::distance2_below(const Vec8& y) const {
-  const Vec8 v = y - x0;
-  const double s = axis0.dot(v), t = axis1.dot(v), v2 = v.squaredNorm();
+// The triangle's own plane, with coordinates that begin at the first corner along the first side.
+double distance2_below(const Triangle8& triangle, const Vec8& y) {
+  const Vec8 &x0 = *triangle.corners[0], a = *triangle.corners[1] - x0,
+             b = *triangle.corners[2] - x0, v = y - x0;
+  const double along2 = a.squaredNorm(), per_along2 = along2 > 0.0 ? 1.0 / along2 : 0.0;
+  Vec8 up = b - per_along2 * a.dot(b) * a;
+  up -= per_along2 * a.dot(up) * a;  // a thin triangle's leans by rounding
+  const double along = std::sqrt(along2), height = up.norm(), v2 = v.squaredNorm();
+  const double s = along * per_along2 * a.dot(v), t = height > 0.0 ? up.dot(v) / height : 0.0;
   const double above2 = v2 - s * s - t * t;
-  const double distance2 = std::max(above2, 0.0) + triangle_distance2(s, t, along, across, height);
+  const double distance2 = std::max(above2, 0.0) +
+                           triangle_distance2(s, t, along, along * per_along2 * a.dot(b), height);
   return distance2 - 1e-13 * v2;  // more than all rounding
 }
+
+}  // namespace
 
 std::vector<Index> face_order(std::span<const Face> faces, std::span<const double> values,
                               int dimension) {
@@ -84,27 +79,15 @@ PhongSurface::PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges
   faces_.reserve(at(mesh.face_count()));
   for (const Face& f : mesh.faces())
     faces_.push_back(
-        {f, make_frames({value(f[0]), value(f[1]), value(f[2])},
-                        {&tangents_[at(f[0])], &tangents_[at(f[1])], &tangents_[at(f[2])]})});
+        {f, make_frames({&tangents_[at(f[0])], &tangents_[at(f[1])], &tangents_[at(f[2])]})});
   std::vector<Index> found;
   if (order.empty()) order = found = face_order(mesh.faces(), values, dimension);
-  bvh_ = {box, mesh.face_count(), [&](Index f) { return flat(f); }, order};
+  bvh_ = {box, mesh.face_count(), [&](Index f) { return triangle(f); }, order};
 }
 
-PhongSurface::Flat PhongSurface::flat(Index face) const {
-  const Face& f = faces_[at(face)].corners;
-  Flat result;
-  result.x0 = value(f[0]);
-  const Vec8 a = value(f[1]) - result.x0, b = value(f[2]) - result.x0;
-  result.along = a.norm();
-  result.axis0 = result.along > 0.0 ? Vec8(a / result.along) : Vec8(Vec8::Unit(0));
-  result.across = result.axis0.dot(b);
-  const Vec8 up = b - result.across * result.axis0;
-  result.height = up.norm();
-  result.axis1 = result.height > 0.0 ? Vec8(up / result.height) : Vec8(Vec8::Zero());
-  // A thin triangle's second axis leans on the first by rounding: taken off again.
-  result.axis1 -= result.axis0.dot(result.axis1) * result.axis0;
-  return result;
+double PhongSurface::first_side(Index face) const {
+  const Triangle8 t = triangle(face);
+  return (*t.corners[1] - *t.corners[0]).norm();
 }
 
 Vec8 PhongSurface::position(const SurfacePoint& p) const {
@@ -122,18 +105,20 @@ Basis PhongSurface::tangent_plane(const SurfacePoint& p) const {
     const double bi = b[static_cast<int>(e)], bj = b[static_cast<int>(j)],
                  bk = b[static_cast<int>(k)];
     const double weight = s > 1e-14 ? bi * bj / s : (bi > 0.5 ? 1.0 : 0.0);
-    result += weight * ((bi + 0.5 * bk) * face.frames.from[e] * tangents_[at(face.corners[e])] +
-                        (bj + 0.5 * bk) * face.frames.to[e] * tangents_[at(face.corners[j])]);
+    result += weight * ((bi + 0.5 * bk) * face.frames.from(e) * tangents_[at(face.corners[e])] +
+                        (bj + 0.5 * bk) * face.frames.to(e) * tangents_[at(face.corners[j])]);
   }
   return result;
 }
 
 FaceEquation PhongSurface::equation(Index face, const Vec8& y) const {
   const Record& record = faces_[at(face)];
-  const Vec8 v = y - value(record.corners[0]);
-  return {record.frames,
-          {tangents_[at(record.corners[0])] * v, tangents_[at(record.corners[1])] * v,
-           tangents_[at(record.corners[2])] * v}};
+  std::array<std::array<Vec2, 3>, 3> u;
+  for (std::size_t l = 0; l < 3; ++l) {
+    const Vec8 v = y - value(record.corners[l]);
+    for (std::size_t i = 0; i < 3; ++i) u[i][l] = tangents_[at(record.corners[i])] * v;
+  }
+  return {record.frames, u};
 }
 
 void PhongSurface::consider(Index face, const Vec8& y, SurfacePoint& best,
@@ -154,8 +139,8 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   double distance2 = kInfinity;
   // All solutions within the bound, which shrinks to the nearest.
   const auto search = [&](double within2) {
-    bvh_.nearest(y, within2, [&](Index face, const Flat& candidate, double bound2) {
-      if (face == best.face || candidate.distance2_below(y) > bound2) return bound2;
+    bvh_.nearest(y, within2, [&](Index face, spatial::NoPack, double bound2) {
+      if (face == best.face) return bound2;
       consider(face, y, best, distance2);
       return std::min(bound2, distance2);
     });
@@ -164,19 +149,18 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   if (hint >= 0 && hint < face_count()) {
     consider(hint, y, best, distance2);
     if (best.face == kNone) {
-      const Flat start = flat(hint);
-      nearest2 = start.distance2_below(y);
-      side = start.along;
+      nearest2 = distance2_below(triangle(hint), y);
+      side = first_side(hint);
     }
   }
   if (best.face == kNone) {
     // The face nearest to y need not have a solution, and until one is known nothing bounds the
     // search: it goes out by steps.
-    bvh_.nearest(y, nearest2, [&](Index, const Flat& candidate, double bound2) {
-      const double d2 = candidate.distance2_below(y);
+    bvh_.nearest(y, nearest2, [&](Index face, spatial::NoPack, double bound2) {
+      const double d2 = distance2_below(triangle(face), y);
       if (d2 < nearest2) {
         nearest2 = d2;
-        side = candidate.along;
+        side = first_side(face);
       }
       return std::min(bound2, std::max(d2, 0.0));
     });

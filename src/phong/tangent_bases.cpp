@@ -13,10 +13,6 @@ namespace {
 
 using Mat8 = Eigen::Matrix<double, kDimension, kDimension>;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 // The sine between the tangents below which they are taken as parallel: their plane has lost all
 // but 3 digits or more.
 constexpr double kParallel = 1e-6;

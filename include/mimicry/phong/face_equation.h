@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include <mimicry/phong/tangent_bases.h>
@@ -11,29 +13,45 @@ using Mat2 = Eigen::Matrix2d;
 
 /// What one triangle's share of the tangent field needs. Edge e runs from corner e to corner
 /// (e + 1) % 3.
-struct FaceFrames {
-  /// E_ij R_ij and E_ij of each edge: the tangent plane of the whole triangle is
-  /// T(b) = sum over edges (b_i b_j / S) [(b_i + b_k / 2) from[e] T_i + (b_j + b_k / 2) to[e] T_j].
-  std::array<Mat2, 3> from, to;
-  /// offset[i][l] = T_i (x_l - x_0); l = 0 is zero and left out.
-  std::array<std::array<Vec2, 2>, 3> offset;
+class FaceFrames {
+ public:
+  FaceFrames() = default;
+  FaceFrames(const std::array<Mat2, 3>& from, const std::array<Mat2, 3>& to);
+
+  /// E_ij R_ij and E_ij of each edge, orthogonal: the tangent plane of the whole triangle is
+  /// T(b) = sum over edges (b_i b_j / S) [(b_i + b_k / 2) from(e) T_i + (b_j + b_k / 2) to(e) T_j].
+  Mat2 from(std::size_t e) const { return matrix(e); }
+  Mat2 to(std::size_t e) const { return matrix(3 + e); }
+
+ private:
+  // The second column is the first one turned, to the left or, where the flag is set, to the right.
+  Mat2 matrix(std::size_t k) const {
+    const Vec2& first = first_column_[k];
+    const double side = reflections_ >> k & 1U ? -1.0 : 1.0;
+    Mat2 result;
+    result << first[0], -side * first[1], first[1], side * first[0];
+    return result;
+  }
+
+  std::array<Vec2, 6> first_column_;
+  std::uint32_t reflections_ = 0;
 };
 
 /// The orthogonal matrix closest to m, reflections allowed: its polar factor. The identity for 0.
 /// Entries up to 1e150; below 1e-150 they are 0.
 Mat2 nearest_orthogonal(const Mat2& m);
 
-/// From the positions and tangent planes of the corners: R_ij by polar factors, the three E_ij by
-/// alternating Procrustes.
-FaceFrames make_frames(const std::array<Vec8, 3>& x, const std::array<const Basis*, 3>& t);
+/// From the tangent planes of the corners: R_ij by polar factors, the three E_ij by alternating
+/// Procrustes.
+FaceFrames make_frames(const std::array<const Basis*, 3>& t);
 
 /// The equation of a query y on one triangle: f(b) = T(b) (y - x(b)) = 0, with the analytic
 /// Jacobian. S f is a quartic in b: its Bernstein coefficients tell, for most triangles without
 /// evaluating anything, that there is no solution inside.
 class FaceEquation {
  public:
-  /// w[i] = T_i (y - x_0).
-  FaceEquation(const FaceFrames& frames, const std::array<Vec2, 3>& w);
+  /// u[i][l] = T_i (y - x_l).
+  FaceEquation(const FaceFrames& frames, const std::array<std::array<Vec2, 3>, 3>& u);
 
   /// By (b1, b2), with b0 = 1 - b1 - b2; not at a corner.
   struct Value {
@@ -64,7 +82,7 @@ class FaceEquation {
 
   std::optional<Vec3> beside_corner(std::size_t i) const;
 
-  std::array<std::array<Vec2, 3>, 3> u_;  // u_[i][l] = T_i (y - x_l)
+  std::array<std::array<Vec2, 3>, 3> u_;
   // Monomials of S f: b_i^3 b_{i+1}, b_i^3 b_{i+2}, b_i^2 b_{i+1}^2, b_i^2 b_{i+1} b_{i+2}.
   std::array<Vec2, 3> next_, previous_, square_, mixed_;
 };

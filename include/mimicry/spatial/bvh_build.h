@@ -203,41 +203,47 @@ struct Bvh<Dim, PrimitiveType>::OrderedBuilder {
   Bvh& bvh;
   std::span<const Index> order;
 
+  static FloatBox empty() {
+    FloatBox box;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      box[k] = kFloatInfinity;
+      box[k + Dim] = -kFloatInfinity;
+    }
+    return box;
+  }
+
+  // box: of them all.
   template <class Get>
   std::int32_t build(Index first, Index last, Get& primitive, FloatBox& box) {
-    box.fill(kFloatInfinity);
-    for (std::size_t k = 0; k < Dim; ++k) box[k + Dim] = -kFloatInfinity;
-    const auto extend = [&box](const FloatBox& other) {
-      for (std::size_t k = 0; k < Dim; ++k) {
-        box[k] = std::min(box[k], other[k]);
-        box[k + Dim] = std::max(box[k + Dim], other[k + Dim]);
-      }
-    };
     if (last - first <= kMostInLeaf) {
       const auto number = static_cast<std::int32_t>(bvh.leaves_.size());
       Leaf& leaf = bvh.leaves_.emplace_back();
+      Box bounds;
       for (Index lane = 0; lane < kMostInLeaf; ++lane) {
         const Index place = first + lane < last ? first + lane : first;
         const Index i = order.empty() ? place : order[static_cast<std::size_t>(place)];
         leaf.numbers[static_cast<std::size_t>(lane)] = i;
         const auto p = primitive(i);
         leaf.pack.set(lane, p);
-        extend(bvh.float_box(p.box()));
+        bounds.extend(p.box());
       }
+      box = bvh.float_box(bounds);
       return ~((number << 3) | (last - first - 1));
     }
     const auto number = static_cast<std::int32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();
     const Index size = LeafBlocks::child_size(last - first);
+    box = empty();
     for (int lane = 0; lane < kWidth; ++lane) {
-      FloatBox part;
-      part.fill(kFloatInfinity);
-      for (std::size_t k = 0; k < Dim; ++k) part[k + Dim] = -kFloatInfinity;
+      FloatBox part = empty();
       std::int32_t child = kUnused;
       const Index begin = first + lane * size;
       if (begin < last) {
         child = build(begin, std::min(begin + size, last), primitive, part);
-        extend(part);
+        for (std::size_t k = 0; k < Dim; ++k) {
+          box[k] = std::min(box[k], part[k]);
+          box[k + Dim] = std::max(box[k + Dim], part[k + Dim]);
+        }
       }
       Node& node = bvh.nodes_[static_cast<std::size_t>(number)];
       node.children[static_cast<std::size_t>(lane)] = child;
