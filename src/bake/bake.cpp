@@ -14,7 +14,9 @@
 #include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/fast_marching.h>
+#include <mimicry/phong/tangent_bases.h>
 
+#include "bake/normal_wishes.h"
 #include "bake/unit_mesh.h"
 
 namespace mimicry::bake {
@@ -87,7 +89,12 @@ class LsMeshStage {
         progress_(progress),
         guess_(shell.positions, samples, sample_values) {}
 
-  Values run(BakeQuality& quality) { return shell_.is_lattice ? lattice(quality) : tied(quality); }
+  Values run(BakeQuality& quality) {
+    if (shell_.is_lattice) return lattice(quality);
+    Values values = tied(quality);
+    if (values.cols() <= phong::kDimension) turn_normals(values, quality);
+    return values;
+  }
 
  private:
   static constexpr double kHold = 1e-2;  // strength that holds what floats
@@ -96,7 +103,8 @@ class LsMeshStage {
 
   template <class Element>
   LsMeshResult solve(LsMeshInput input, std::span<const Element> elements,
-                     std::vector<SoftConstraint> soft, Values soft_values, int most) {
+                     std::vector<SoftConstraint> soft, Values soft_values, int most,
+                     double tolerance = 1e-6) {
     // Tied vertices follow their corners.
     std::vector<bool> tied(input.positions.size(), false);
     for (const Tie& tie : input.ties) tied[at(tie.vertex)] = true;
@@ -117,7 +125,7 @@ class LsMeshStage {
     }
     input.soft = soft;
     input.soft_values = &soft_values;
-    return ls_mesh(input, {.tolerance = 1e-6, .most_iterations = most}, executor_, progress_);
+    return ls_mesh(input, {.tolerance = tolerance, .most_iterations = most}, executor_, progress_);
   }
 
   Values guesses(std::size_t count) const {
@@ -167,6 +175,28 @@ class LsMeshStage {
     quality.ls_mesh_iterations += result.iterations;
     quality.hit_a_cap = quality.hit_a_cap || !result.converged;
     return std::move(result.values);
+  }
+
+  // The shell once more around the surface's values, which stay: from what is nearly the solution,
+  // and where the last digits do not show.
+  void turn_normals(Values& values, BakeQuality& quality) {
+    constexpr double kLoose = 1e-4;
+    NormalWishes wishes = normal_wishes(mesh_, shell_, values);
+    std::vector<Index> all(at(mesh_.vertex_count()));
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<Index>(v);
+    const Values on_surface = values.topRows(mesh_.vertex_count());
+    LsMeshInput input;
+    input.positions = shell_.positions;
+    input.tets = shell_.tets;
+    input.ties = shell_.ties;
+    input.fixed = all;
+    input.fixed_values = &on_surface;
+    input.start = &values;
+    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(wishes.wishes),
+                                     std::move(wishes.values), kMost, kLoose);
+    quality.ls_mesh_iterations += result.iterations;
+    quality.hit_a_cap = quality.hit_a_cap || !result.converged;
+    values = std::move(result.values);
   }
 
   // The surface's own solution holds the lattice softly.

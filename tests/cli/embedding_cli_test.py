@@ -351,13 +351,24 @@ class Embeddings(unittest.TestCase):
         self.assertIn("earlier", self.run_cli("bake", SHAPE, "-o", self.path("a"), "--samples",
                                               "90").stdout)
 
+    def wait_until_caught(self, process, number):
+        """Before the program has begun, a signal ends it in the system's own way."""
+        for _ in range(600):
+            with open(f"/proc/{process.pid}/status", encoding="ascii") as status:
+                caught = next(line for line in status if line.startswith("SigCgt"))
+            if int(caught.split()[1], 16) >> (number - 1) & 1:
+                return
+            time.sleep(0.1)
+        self.fail("the program does not catch the signal")
+
     def test_interrupted_bake_leaves_nothing_behind(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             environment = dict(os.environ, MIMICRY_CACHE=self.path("cache"))
             bake = subprocess.Popen([PROGRAM, "bake", "shape:torus:80", "-o",
                                      self.path("big.mimicry")], env=environment,
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            time.sleep(0.7)
+            self.wait_until_caught(bake, number)
+            time.sleep(0.3)
             bake.send_signal(number)
             bake.communicate(timeout=120)
             self.assertEqual(bake.returncode, 130)

@@ -205,6 +205,27 @@ TEST(SmoothProjector, IsSmootherThanSnapAtEveryResolution) {
     }
 }
 
+// A motion straight off the surface leaves its point where it is: on thin parts values lean along
+// the surface by a third of the way, as the least-squares mesh alone has them.
+TEST(SmoothProjector, PointsOffTheSurfaceDoNotSlideAlongIt) {
+  for (const std::string_view name : {"hand", "trefoil"}) {
+    const Baked shape(std::string(name), make_shape(name, {.resolution = name == "hand" ? 2 : 10}));
+    Random random(5);
+    const double way = 0.005 * shape.target.diagonal();
+    std::vector<double> slide;
+    for (int i = 0; i < 1000; ++i) {
+      const SurfacePoint p = shape.random_point(random);
+      const Vec3 x = shape.target.position(p);
+      const auto q = shape.projector.project(x + (i % 2 ? way : -way) * shape.target.normal(p));
+      ASSERT_EQ(q->label, ScpLabel::smooth) << name << " seed 5, point " << i;
+      slide.push_back((q->position - x).norm() / way);
+    }
+    std::sort(slide.begin(), slide.end());
+    EXPECT_LT(slide[500], 0.1) << name;
+    EXPECT_LT(slide[900], 0.5) << name;
+  }
+}
+
 TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
   const Baked& shape = sphere();
   const auto refused = [](Embedding e, const spatial::Target& target, const std::string& what) {

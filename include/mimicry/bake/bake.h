@@ -12,7 +12,7 @@ using embedding::Embedding;
 
 /// Raised whenever the same mesh and options give another embedding than before: kept bakes of an
 /// earlier revision are made again.
-inline constexpr int kRevision = 2;
+inline constexpr int kRevision = 3;
 
 /// Bakes a target for smooth closest points (Panozzo, Baran, Diamanti, Sorkine-Hornung, Weighted
 /// Averages on Surfaces, 2013, section 4; Arora and Singh 2021, 3.2): a shell of tetrahedra around
