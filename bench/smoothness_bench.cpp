@@ -1,12 +1,15 @@
 // How smoothly a closed path beside a sphere and a torus is projected by smooth closest points and
 // by plain ones, on meshes of three resolutions. Both have an analytic closest point, whose ratio
 // |dq| / |dp| and total turning are what the projections should come close to. And by how much
-// curves of projected points turn where they cross the meshes' edges.
+// curves of projected points turn where they cross the meshes' edges. Then how far points slide
+// along a surface that the query is moved straight off: shapes of ours, and the study's where they
+// are present.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +18,8 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "edge_turns.h"
+#include "normal_slide.h"
+#include "study_mesh.h"
 
 namespace {
 
@@ -69,6 +74,19 @@ void print(std::string_view shape, Index faces, const char* label, Line line) {
               line.turning);
 }
 
+void print_slides(const std::string& name, const TriangleMesh& mesh) {
+  const spatial::Target target(mesh, {.allow_nonmanifold = true});
+  const embedding::SmoothProjector projector(bake::bake(mesh, {}, 2), target);
+  for (const double off : {0.002, 0.005, 0.01}) {
+    const std::vector<double> slides = bench::normal_slides(projector, off, 4000, 1);
+    const auto at = [&](double q) {
+      return slides[static_cast<std::size_t>(q * static_cast<double>(slides.size() - 1))];
+    };
+    std::printf("%-16s %8.1f %8.3f %8.3f %8.3f\n", name.c_str(), 100.0 * off, at(0.5), at(0.9),
+                at(0.99));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -98,5 +116,12 @@ int main() {
       std::printf("%-8s %6d %12.4f %8.4f\n", shape.data(), mesh.face_count(), turns.in_embedding,
                   turns.in_space);
     }
+  std::printf("\nslide over the way off the surface\n%-16s %8s %8s %8s %8s\n", "shape", "off, %",
+              "median", "p90", "p99");
+  for (const char* shape : {"sphere", "torus", "cube", "trefoil", "plate", "hand"})
+    print_slides(shape, make_shape(shape));
+  for (const char* shape : {"trebol", "cube", "torus", "hand", "fertility", "bunny"})
+    if (const auto mesh = bench::study_mesh(shape))
+      print_slides("study:" + std::string(shape), *mesh);
   return 0;
 }
