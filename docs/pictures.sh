@@ -31,11 +31,11 @@ picture snap-smooth-fails snap-smooth torus closed
 picture anchored-closest-shines anchored-closest torus closed
 picture anchored-closest-fails anchored-closest noisy-cube winding 1.2
 picture mimicry-shines mimicry cube winding
-picture mimicry-fails mimicry hand winding
+picture mimicry-fails mimicry trefoil winding
 picture mimicry-planar-shines mimicry-planar plate winding
 picture mimicry-planar-fails mimicry-planar torus closed
 picture mimicry-offset-shines mimicry-offset cube across
-picture mimicry-offset-fails mimicry-offset hand winding
+picture mimicry-offset-fails mimicry-offset trefoil winding
 picture mimicry-parallel-shines mimicry-parallel torus closed
 picture mimicry-parallel-fails mimicry-parallel torus winding
 picture anchored-ray-plane-shines anchored-ray-plane cube winding
