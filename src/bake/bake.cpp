@@ -28,8 +28,8 @@ void check(const BakeOptions& options) {
   };
   if (options.dimension < 3 || options.dimension > 64)
     refuse("dimension " + std::to_string(options.dimension) + "; it must be 3 to 64");
-  if (options.samples < 1 || options.samples > 20000)
-    refuse(std::to_string(options.samples) + " samples; there must be 1 to 20000");
+  if (options.samples < 10 || options.samples > 20000)
+    refuse(std::to_string(options.samples) + " samples; there must be 10 to 20000");
   if (!(options.offset >= 1e-3 && options.offset <= 0.5))
     refuse("offset " + std::to_string(options.offset) +
            "; it must be 0.001 to 0.5 of the diagonal");

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include <mimicry/base/error.h>
 
 #include "bake/morton.h"
 
@@ -76,10 +79,15 @@ Octree make_octree(const Surface& surface, const std::vector<double>& local_size
     next.clear();
     for (const Pending& p : level) {
       if (!p.keep) continue;
-      if (!p.split || octree.cells.size() + next.size() > grading.most_cells) {
+      if (!p.split) {
         octree.cells.push_back(p.cell);
         continue;
       }
+      if (octree.cells.size() + next.size() > grading.most_cells)
+        throw Error(ErrorKind::invalid_input,
+                    "bake: a shell that reaches " + std::to_string(grading.offset) +
+                        " of the diagonal takes more than " + std::to_string(grading.most_cells) +
+                        " cells around this mesh; give a larger offset");
       const std::int32_t half = p.cell.side / 2;
       for (int k = 0; k < 8; ++k) {
         Pending child{};

@@ -41,12 +41,13 @@ struct Grading {
   double largest = 0.0;   ///< nor left above this
   double side = 1.0;      ///< of a cell at the surface, in local sizes of its triangles
   double slope = 0.0;     ///< growth of the side with the distance from the surface
-  std::size_t most_cells = 4000000;
+  std::size_t most_cells = 400000;
 };
 
 /// The leaves within `offset` of the surface, in a fixed order: a cell is split while it is larger
 /// than `side` times the local size of the triangles, plus slope times the distance beyond it.
-/// local_size: #V, unit mesh. Stops splitting where there would be more than most_cells.
+/// local_size: #V, unit mesh. Throws Error(invalid_input) where there would be more than
+/// most_cells.
 Octree make_octree(const Surface& surface, const std::vector<double>& local_size,
                    const Grading& grading, double half_side, Executor& executor);
 

@@ -12,7 +12,7 @@ using embedding::ScpHint;
 using embedding::ScpLabel;
 using embedding::SmoothProjector;
 
-constexpr std::size_t kPointChunk = 256, kPointBlock = 64 * kPointChunk;
+constexpr std::size_t kPointChunk = 16, kPointBlock = 16 * kPointChunk;
 constexpr int kPointsPerTet = 4;
 constexpr int kPointsPerFace = 9;  // corners, a point on each edge, three inside
 

@@ -55,6 +55,11 @@ void keep_near(Shell& shell, const Delaunay& delaunay, const std::vector<double>
   shell.added_vertices = static_cast<Index>(shell.ties.size());
 }
 
+// Far more than what the usual offset takes; memory would end at some ten times as many.
+std::size_t most_cells(const TriangleMesh& mesh) {
+  return std::max<std::size_t>(400000, 8 * at(mesh.face_count()));
+}
+
 }  // namespace
 
 Shell make_shell(const TriangleMesh& mesh, const ShellOptions& options, Executor& executor,
@@ -70,6 +75,7 @@ Shell make_shell(const TriangleMesh& mesh, const ShellOptions& options, Executor
   grading.largest = options.offset;
   grading.side = 2.0;
   grading.slope = 1.0;
+  grading.most_cells = most_cells(mesh);
   const Octree octree = make_octree(surface, sizes, grading, half_side, executor);
   report(progress, "shell", 0.2);
   const std::vector<OctreeNode> nodes = octree_nodes(octree, surface, sizes, true, executor);
@@ -121,6 +127,7 @@ Shell make_lattice_shell(const TriangleMesh& mesh, const ShellOptions& options, 
   Grading grading;
   grading.offset = options.offset;
   grading.smallest = grading.largest = options.offset / 4.0;
+  grading.most_cells = most_cells(mesh);
   Octree octree = make_octree(surface, sizes, grading, half_side, executor);
   report(progress, "lattice", 0.5);
 

@@ -20,6 +20,7 @@ struct BakeArguments {
   std::string mesh;
   std::string out;
   BakeSettings bake;
+  bool allow_nonmanifold = false;
 };
 
 // Time of each stage, from the progress reports: the library itself looks at no clock.
@@ -44,7 +45,7 @@ class StageTimes {
 
 void run_bake(const BakeArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  (void)make_target(named, false);
+  (void)make_target(named, args.allow_nonmanifold);
   StageTimes times;
   const Baked baked = bake_mesh(named.mesh, args.bake, [&](const Progress& progress) {
     times.enter(progress.stage);
@@ -76,13 +77,15 @@ void add_bake(CLI::App& app, int&) {
       ->check(CLI::Range(3, 8))
       ->capture_default_str();
   command->add_option("--samples", args->bake.options.samples, "At most")
-      ->check(CLI::Range(1, 20000))
+      ->check(CLI::Range(10, 20000))
       ->capture_default_str();
   command
       ->add_option("--offset", args->bake.options.offset,
                    "Half the shell's thickness, part of the diagonal")
       ->check(number_between(1e-3, 0.5))
       ->capture_default_str();
+  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
+                    "Accept edges with three or more faces");
   command->callback([args] { run_bake(*args); });
 }
 

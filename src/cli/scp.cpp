@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/points.h>
 
@@ -26,6 +28,10 @@ struct ScpArguments {
 
 void run_scp(const ScpArguments& args, int& status) {
   const std::string points_name = std::filesystem::path(args.points).filename().string();
+  std::error_code unknown;  // of a file that does not exist
+  if (std::filesystem::equivalent(args.points, args.out, unknown))
+    throw Error(ErrorKind::invalid_input,
+                args.out + ": is what --points names, and would be lost; give another --out");
   const io::PointRows rows = io::read_points_csv(files::read_file(args.points), points_name);
   const LoadedProjector projector(load_embedding(args.embedding),
                                   std::filesystem::path(args.embedding).filename().string());

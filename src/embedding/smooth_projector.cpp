@@ -38,10 +38,13 @@ Embedding checked(Embedding e, const spatial::Target& target) {
   const TriangleMesh& mesh = target.mesh();
   if (e.mesh_vertex_count != mesh.vertex_count() || e.face_count() != mesh.face_count() ||
       e.mesh_hash != content_hash(mesh))
-    refuse("it is of another mesh (" + std::to_string(e.mesh_vertex_count) + " vertices, " +
-           std::to_string(e.face_count()) + " faces) than the target (" +
-           std::to_string(mesh.vertex_count()) + " vertices, " + std::to_string(mesh.face_count()) +
-           " faces)");
+    refuse(e.mesh_vertex_count == mesh.vertex_count() && e.face_count() == mesh.face_count()
+               ? "it is of another mesh than the target: as many vertices and faces, but in other "
+                 "places or another order"
+               : "it is of another mesh (" + std::to_string(e.mesh_vertex_count) + " vertices, " +
+                     std::to_string(e.face_count()) + " faces) than the target (" +
+                     std::to_string(mesh.vertex_count()) + " vertices, " +
+                     std::to_string(mesh.face_count()) + " faces)");
   if (e.dimension < 1 || e.vertex_count() < e.mesh_vertex_count ||
       e.values.size() != e.positions.size() * static_cast<std::size_t>(e.dimension))
     refuse("its sizes contradict each other");

@@ -9,6 +9,7 @@ namespace mimicry::phong {
 namespace {
 
 constexpr int kSteps = 6;
+constexpr double kStanding = 1e-9;  // of the model's size: so near to a face y stands on it
 
 // Squared distance of (s, t) from the triangle (0, 0), (along, 0), (across, height).
 double triangle_distance2(double s, double t, double along, double across, double height) {
@@ -44,6 +45,25 @@ double distance2_below(const Triangle8& triangle, const Vec8& y) {
   const double distance2 = std::max(above2, 0.0) +
                            triangle_distance2(s, t, along, along * per_along2 * a.dot(b), height);
   return distance2 - 1e-13 * v2;  // more than all rounding
+}
+
+// Where y is on a face the equation holds whatever T is. Where T stands upright on the face, as
+// beside the rim of a thin plate, rounding hides that from the solver.
+void consider_standing(Index face, const Triangle8& triangle, const Vec8& y, double near2,
+                       SurfacePoint& best, double& distance2) {
+  const Vec8 &x0 = *triangle.corners[0], a = *triangle.corners[1] - x0,
+             b = *triangle.corners[2] - x0, v = y - x0;
+  const double along2 = a.squaredNorm(), per_along2 = along2 > 0.0 ? 1.0 / along2 : 0.0;
+  const Vec8 up = b - per_along2 * a.dot(b) * a;
+  const double height2 = up.squaredNorm();
+  const double second = height2 > 0.0 ? up.dot(v) / height2 : 0.0;
+  const double first = per_along2 * (a.dot(v) - second * a.dot(b));
+  Vec3 bary = Vec3(1.0 - first - second, first, second).cwiseMax(0.0);
+  bary /= bary.sum();
+  const double d2 = (v - bary[1] * a - bary[2] * b).squaredNorm();
+  if (d2 > near2 || d2 > distance2 || (d2 == distance2 && face > best.face)) return;
+  best = {face, bary};
+  distance2 = d2;
 }
 
 }  // namespace
@@ -170,6 +190,12 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   }
   // The one that is known may lie beyond the bound under which it was found.
   if (best.face != kNone) search(distance2);
+  const double near2 = kStanding * kStanding * size_ * size_;
+  if (distance2 > near2)
+    bvh_.nearest(y, near2, [&](Index face, spatial::NoPack, double bound2) {
+      consider_standing(face, triangle(face), y, near2, best, distance2);
+      return bound2;
+    });
   if (best.face == kNone) return std::nullopt;
   return PhongPoint{best, std::sqrt(distance2)};
 }
@@ -178,6 +204,10 @@ std::optional<PhongPoint> PhongSurface::project_exhaustively(const Vec8& y) cons
   SurfacePoint best;
   double distance2 = kInfinity;
   for (Index face = 0; face < face_count(); ++face) consider(face, y, best, distance2);
+  const double near2 = kStanding * kStanding * size_ * size_;
+  if (distance2 > near2)
+    for (Index face = 0; face < face_count(); ++face)
+      consider_standing(face, triangle(face), y, near2, best, distance2);
   if (best.face == kNone) return std::nullopt;
   return PhongPoint{best, std::sqrt(distance2)};
 }

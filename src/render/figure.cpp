@@ -25,6 +25,8 @@ void draw_swatch(Image& image, double x, double y, double radius, const Color& c
   }
 }
 
+constexpr Color kOutlineColor{0.45, 0.45, 0.45};
+
 /// A piece of text with a swatch before it where `swatch` says so.
 struct Entry {
   std::string text;
@@ -38,7 +40,9 @@ double entry_width(const Entry& entry, double size) {
 
 void draw_entry(Image& image, const Entry& entry, double x, double baseline, double size) {
   if (entry.swatch) {
-    draw_swatch(image, x + 0.32 * size, baseline - 0.29 * size, 0.30 * size, entry.color);
+    // With an outline, or what is white would not be seen.
+    draw_swatch(image, x + 0.32 * size, baseline - 0.29 * size, 0.34 * size, kOutlineColor);
+    draw_swatch(image, x + 0.32 * size, baseline - 0.29 * size, 0.28 * size, entry.color);
     x += 0.95 * size;
   }
   draw_text(image, entry.text, x, baseline, size, kInkColor);

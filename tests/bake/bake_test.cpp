@@ -265,7 +265,8 @@ TEST(Bake, RefusesWhatHasNoSurface) {
   EXPECT_THROW(bake(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}, {{0, 1, 2}})), Error);
   const TriangleMesh mesh = make_grid(2);
   EXPECT_THROW(bake(mesh, {.dimension = 2}), Error);
-  EXPECT_THROW(bake(mesh, {.samples = 0}), Error);
+  EXPECT_THROW(bake(mesh, {.samples = 9}), Error);
+  EXPECT_THROW(bake(make_box(4, 4, 4, Vec3::Ones()), {.offset = 1e-3}), Error);  // too many cells
   EXPECT_THROW(bake(mesh, {.offset = 0.0}), Error);
 }
 

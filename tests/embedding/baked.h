@@ -51,6 +51,7 @@ inline const std::vector<std::unique_ptr<Baked>>& shapes() {
     list.push_back(std::make_unique<Baked>("cube", make_box(7, 7, 7, Vec3::Constant(0.8))));
     list.push_back(std::make_unique<Baked>("grid", make_grid(14)));
     list.push_back(std::make_unique<Baked>("two-spheres", make_two_spheres(5)));
+    list.push_back(std::make_unique<Baked>("thin", make_box(10, 10, 1, Vec3(0.5, 0.5, 0.0005))));
     return list;
   }();
   return all;
