@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,6 +136,16 @@ class LsMeshStage {
     return start;
   }
 
+  LsMeshInput of_shell() const {
+    return {.positions = shell_.positions, .tets = shell_.tets, .ties = shell_.ties};
+  }
+
+  std::vector<Index> mesh_vertices() const {
+    std::vector<Index> all(at(mesh_.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
   // The surface alone.
   LsMeshResult surface() {
     const Values start = guesses(at(mesh_.vertex_count()));
@@ -149,10 +160,7 @@ class LsMeshStage {
 
   Values tied(BakeQuality& quality) {
     Values start = guesses(shell_.positions.size());
-    LsMeshInput input;
-    input.positions = shell_.positions;
-    input.tets = shell_.tets;
-    input.ties = shell_.ties;
+    LsMeshInput input = of_shell();
     input.fixed = samples_;
     input.fixed_values = &sample_values_;
     input.start = &start;
@@ -163,8 +171,7 @@ class LsMeshStage {
     // A slow one: the surface first, then what hangs on it, then all of it from there.
     quality.surface_first = true;
     const Values on_surface = surface().values;
-    std::vector<Index> all(at(mesh_.vertex_count()));
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<Index>(v);
+    const std::vector<Index> all = mesh_vertices();
     start = std::move(result.values);
     input.fixed = all;
     input.fixed_values = &on_surface;
@@ -182,13 +189,9 @@ class LsMeshStage {
   void turn_normals(Values& values, BakeQuality& quality) {
     constexpr double kLoose = 1e-4;
     NormalWishes wishes = normal_wishes(mesh_, shell_, values);
-    std::vector<Index> all(at(mesh_.vertex_count()));
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<Index>(v);
+    const std::vector<Index> all = mesh_vertices();
     const Values on_surface = values.topRows(mesh_.vertex_count());
-    LsMeshInput input;
-    input.positions = shell_.positions;
-    input.tets = shell_.tets;
-    input.ties = shell_.ties;
+    LsMeshInput input = of_shell();
     input.fixed = all;
     input.fixed_values = &on_surface;
     input.start = &values;

@@ -23,7 +23,8 @@ inline constexpr int kRevision = 3;
 /// needles, self-intersections, non-manifold edges. `quality` says what came of it; where the mesh
 /// cannot be made to stand in the shell's tetrahedra the shell is a lattice. Throws
 /// Error(invalid_input) for a mesh without area or with vertices that are not finite and for
-/// options out of range (dimension 3 .. 64, samples 10 .. 20,000, offset 1e-3 .. 0.5),
+/// options out of range (dimension 3 .. 64, samples 10 .. 20,000, offset 1e-3 .. 0.5, or so small
+/// that the shell takes more than 400,000 cells and more than 8 a face),
 /// Error(cancelled) when `progress` returns false.
 ///
 /// Stages reported, in this order: shell, (lattice,) samples, distances, mds, ls-mesh, done. The
