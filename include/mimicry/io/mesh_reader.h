@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include <mimicry/io/mesh_format.h>
@@ -8,10 +11,16 @@
 
 namespace mimicry::io {
 
-/// Limits beyond which a file is refused before its content is held in memory.
+/// What a reader may take, and whom it asks and tells.
 struct MeshReadOptions {
+  // Limits beyond which a file is refused before its content is held in memory.
   std::size_t max_vertices = 100'000'000;
   std::size_t max_faces = 200'000'000;
+  /// Is told, a sentence each, what was passed over or mended; may be empty.
+  std::function<void(const std::string& sentence)> note;
+  /// The content of a file that the mesh names beside it (the buffers of a glTF), by its decoded
+  /// name relative to the mesh's folder; nullopt where there is none. Empty: nothing is beside it.
+  std::function<std::optional<std::string>(const std::string& name)> companion;
 };
 
 /// The mesh that a file's bytes hold. `name` stands in the error messages only.
