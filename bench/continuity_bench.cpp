@@ -48,7 +48,7 @@ struct Scene {
   Scene(std::string n, bool study, const TriangleMesh& mesh, int threads)
       : name(std::move(n)),
         is_study(study),
-        target(mesh, {.allow_nonmanifold = true}),
+        target(mesh),
         projector(bake::bake(mesh, {}, threads), target) {}
 };
 

@@ -115,7 +115,7 @@ stroke::Stroke closed_loop(const Scene& scene, const Way& way, const stroke::Int
 enum class Hand { translated, automatic, closed_loop };
 
 Scene builtin(std::string_view name, int resolution) {
-  spatial::Target target(make_shape(name, {.resolution = resolution}), {.allow_nonmanifold = true});
+  spatial::Target target(make_shape(name, {.resolution = resolution}));
   auto curves = study::intended_curves(name, target);
   return {std::string(name), std::move(target), std::move(curves),
           find_shape(name)->metres_per_unit};
@@ -131,8 +131,7 @@ std::vector<Scene> scenes() {
     const auto set = io::read_targets(files::read_file(folder + "targets.json"), "targets.json");
     for (const study::TargetShape& shape : set.shapes) {
       const std::string file = folder + shape.name + ".obj";
-      spatial::Target target(io::read_mesh(files::read_file(file), io::MeshFormat::obj, file),
-                             {.allow_nonmanifold = true});
+      spatial::Target target(io::read_mesh(files::read_file(file), io::MeshFormat::obj, file));
       std::vector<stroke::Intention> curves;
       for (const study::TargetCurve& c : shape.curves) curves.push_back({"", false, c.points});
       all.push_back({"study " + shape.name, std::move(target), std::move(curves), shape.scale});

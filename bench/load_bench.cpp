@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
       }
       {
         const Timer timer(target);
-        t.emplace(mesh_of(*e), spatial::TargetOptions{.allow_nonmanifold = true});
+        t.emplace(mesh_of(*e));
       }
       {
         const Timer timer(projector);

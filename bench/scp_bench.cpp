@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
   }
   if (names.empty()) names = {"sphere", "torus", "hand"};
   for (const std::string& name : names) {
-    const spatial::Target target(mesh_of(name), {.allow_nonmanifold = true});
+    const spatial::Target target(mesh_of(name));
     const auto start = Clock::now();
     embedding::Embedding baked = bake::bake(target.mesh(), options, 2);
     const auto end = Clock::now();

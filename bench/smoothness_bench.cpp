@@ -75,7 +75,7 @@ void print(std::string_view shape, Index faces, const char* label, Line line) {
 }
 
 void print_slides(const std::string& name, const TriangleMesh& mesh) {
-  const spatial::Target target(mesh, {.allow_nonmanifold = true});
+  const spatial::Target target(mesh);
   const embedding::SmoothProjector projector(bake::bake(mesh, {}, 2), target);
   for (const double off : {0.002, 0.005, 0.01}) {
     const std::vector<double> slides = bench::normal_slides(projector, off, 4000, 1);

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // What is made can be written and read.
     const std::string written = io::write_embedding(e);
     if (io::write_embedding(io::read_embedding(written, "output")) != written) __builtin_trap();
-    const spatial::Target target(mesh_of(e), {.allow_nonmanifold = true});
+    const spatial::Target target(mesh_of(e));
     const embedding::SmoothProjector projector(std::move(e), target);
     projector.project(target.position({0, Vec3::Constant(1.0 / 3.0)}));
   } catch (const Error&) {

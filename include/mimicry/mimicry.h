@@ -107,7 +107,9 @@ typedef struct mimicry_mesh_report {
   int32_t duplicate_faces;
 } mimicry_mesh_report;
 
-/* Looks at any mesh. O(n log n). */
+/* Looks at any mesh: counts and findings are the mesh's own; box, area, volume, edges, components,
+ * boundary, genus, manifold and closed are those of the surface that a target of it is drawn on.
+ * O(n log n). */
 MIMICRY_API mimicry_status mimicry_mesh_validate(const mimicry_mesh* mesh,
                                                  mimicry_mesh_report* report);
 
@@ -125,7 +127,8 @@ MIMICRY_API const mimicry_shape_info* mimicry_shape(int32_t number);
 
 /* Targets ------------------------------------------------------------------------------------ */
 
-/* A point on a target: a face and barycentric coordinates of its corners. */
+/* A point on a target: a face of the mesh as it was given, and barycentric coordinates of its
+ * corners in the order given. */
 typedef struct mimicry_surface_point {
   double position[3]; /* model */
   double normal[3];   /* unit, interpolated between the vertices */
@@ -135,12 +138,35 @@ typedef struct mimicry_surface_point {
   int32_t unused;
 } mimicry_surface_point;
 
-/* allow_nonmanifold: accept edges with three or more faces; techniques that walk on the surface
- * do not cross them. O(#F log #F). */
+typedef struct mimicry_target_options {
+  int32_t join;   /* join vertices at equal positions at seams; 1 */
+  int32_t strict; /* refuse what would be mended; 0 */
+} mimicry_target_options;
+
+MIMICRY_API mimicry_target_options mimicry_default_target_options(void);
+/* A mesh ready to be drawn on. What is drawn on is the surface that the mesh is meant to be: seams
+ * are joined, vertices and edges where sheets meet are split, faces without three places or on top
+ * of others are left out, faces that run against their neighbours are turned. The mesh and the
+ * numbers of its faces stay as they are. options: NULL for the defaults. O(#F log #F). */
+MIMICRY_API mimicry_status mimicry_target_make(const mimicry_mesh* mesh,
+                                               const mimicry_target_options* options,
+                                               mimicry_target** out);
+/* The same with the defaults. allow_nonmanifold is of no effect: every target is a manifold. */
 MIMICRY_API mimicry_status mimicry_target_create(const mimicry_mesh* mesh,
                                                  int32_t allow_nonmanifold, mimicry_target** out);
+/* What was done to make the surface, a line each; empty where nothing was. */
+MIMICRY_API const char* mimicry_target_notes(const mimicry_target* target);
+/* The surface: its vertices, and for each the lowest of the mesh's vertices that it joins. */
+MIMICRY_API size_t mimicry_target_surface_vertex_count(const mimicry_target* target);
+MIMICRY_API const int32_t* mimicry_target_surface_sources(const mimicry_target* target);
+/* Corners of the surface's faces, #F by 3. A face that is left out names one vertex three times; of
+ * one that was turned the last two corners are exchanged. */
+MIMICRY_API const int32_t* mimicry_target_surface_faces(const mimicry_target* target);
+/* For each vertex of the mesh one of the surface's; -1 where no face uses it. */
+MIMICRY_API const int32_t* mimicry_target_surface_vertices(const mimicry_target* target);
 MIMICRY_API void mimicry_target_destroy(mimicry_target* target);
-MIMICRY_API const double* mimicry_target_vertex_normals(const mimicry_target* target); /* #V by 3 */
+/* #V by 3, for the vertices of the mesh; 0 where no face uses one. */
+MIMICRY_API const double* mimicry_target_vertex_normals(const mimicry_target* target);
 MIMICRY_API double mimicry_target_diagonal(const mimicry_target* target);
 
 /* The point closest to y (model) within upper_bound; INFINITY for no bound. hint: a face that is

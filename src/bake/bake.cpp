@@ -15,6 +15,7 @@
 #include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/fast_marching.h>
+#include <mimicry/mesh/connect.h>
 #include <mimicry/phong/tangent_bases.h>
 
 #include "bake/normal_wishes.h"
@@ -234,9 +235,10 @@ class LsMeshStage {
 
 }  // namespace
 
-Embedding bake(const TriangleMesh& mesh, const BakeOptions& options, int threads,
+Embedding bake(const TriangleMesh& given, const BakeOptions& options, int threads,
                const ProgressCallback& progress) {
   check(options);
+  const TriangleMesh mesh = connect(given).mesh;
   Executor executor(threads);
   const UnitMesh unit = make_unit_mesh(mesh, grid_half_side(options.offset));
 

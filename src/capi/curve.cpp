@@ -93,7 +93,7 @@ mimicry_status mimicry_curve_point_at(const mimicry_curve* curve, size_t number,
     const curve::CurvePoint& p = points[number];
     put(out->position, p.position);
     put(out->normal, p.normal);
-    put(out->barycentric, p.surface.bary);
+    put(out->barycentric, source_point(curve->target->mesh(), p.surface).bary);
     out->time_s = p.time_s;
     out->pen_distance = p.pen_distance;
     out->face = p.surface.face;

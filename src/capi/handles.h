@@ -26,8 +26,16 @@ struct mimicry_mesh {
   double metres_per_unit = 1.0;
 };
 
+// What a target shows of itself, by the vertices of the caller's mesh.
+struct mimicry_target_view {
+  std::string notes;
+  std::vector<int32_t> surface_sources, surface_vertices;
+  std::vector<mimicry::Vec3> normals;
+};
+
 struct mimicry_target {
   std::shared_ptr<const mimicry::spatial::Target> target;
+  std::shared_ptr<const mimicry_target_view> view;
   std::shared_ptr<const mimicry::embedding::SmoothProjector> projector;  // may be null
 };
 

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include <mimicry/io/mesh_reader.h>
+#include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/mesh/validation.h>
 
@@ -99,7 +100,8 @@ mimicry_status mimicry_mesh_validate(const mimicry_mesh* mesh, mimicry_mesh_repo
   return guarded([&] {
     require(mesh, "mesh");
     require(report, "report");
-    const MeshReport r = validate(mesh->mesh);
+    const MeshReport surface = validate(connect(mesh->mesh).mesh);
+    const MeshReport r = report_as_drawn(mesh->mesh, surface);
     mimicry_mesh_report out{};
     if (!r.box.isEmpty()) {
       put(out.box_min, r.box.min());
@@ -114,8 +116,8 @@ mimicry_status mimicry_mesh_validate(const mimicry_mesh* mesh, mimicry_mesh_repo
     out.components = static_cast<int32_t>(r.components.size());
     out.boundary_loops = r.boundary.loops;
     out.genus = r.genus.value_or(-1);
-    out.manifold = r.is_manifold();
-    out.closed = r.is_closed();
+    out.manifold = surface.is_manifold();
+    out.closed = surface.is_closed();
     out.invalid_vertices = r.invalid_vertices.count;
     out.nonmanifold_edges = r.nonmanifold_edges.count;
     out.nonmanifold_vertices = r.nonmanifold_vertices.count;

@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include <mimicry/io/embedding_file.h>
 
 #include "capi/handles.h"
@@ -19,6 +21,25 @@ auto named(const std::string& name, Body&& body) {
   }
 }
 
+std::shared_ptr<const mimicry_target_view> view_of(const spatial::Target& target) {
+  auto view = std::make_shared<mimicry_target_view>();
+  for (const std::string& sentence : target.connection().sentences())
+    view->notes += (view->notes.empty() ? "" : "\n") + sentence;
+  const TriangleMesh& surface = target.mesh();
+  const std::span<const Vec3> normals = target.vertex_normals();
+  if (const MeshSource* source = surface.source()) {
+    view->surface_sources = source->vertex;
+    view->surface_vertices = source->surface_vertex;
+    for (const Index v : source->surface_vertex)
+      view->normals.push_back(v == kNone ? Vec3(Vec3::Zero()) : normals[at(v)]);
+  } else {
+    view->surface_sources.resize(normals.size());
+    std::iota(view->surface_sources.begin(), view->surface_sources.end(), 0);
+    view->surface_vertices = view->surface_sources;
+  }
+  return view;
+}
+
 template <class Found>
 void put_point(mimicry_surface_point& out, const spatial::Target& target, const Found& found) {
   out = {};
@@ -26,22 +47,49 @@ void put_point(mimicry_surface_point& out, const spatial::Target& target, const 
   if (!found) return;
   put(out.position, found->position);
   put(out.normal, target.normal(found->surface));
-  put(out.barycentric, found->surface.bary);
+  put(out.barycentric, source_point(target.mesh(), found->surface).bary);
   out.distance = found->distance;
   out.face = found->surface.face;
 }
 
 }  // namespace
 
-mimicry_status mimicry_target_create(const mimicry_mesh* mesh, int32_t allow_nonmanifold,
-                                     mimicry_target** out) {
+mimicry_target_options mimicry_default_target_options(void) {
+  return {1, 0};
+}
+
+mimicry_status mimicry_target_make(const mimicry_mesh* mesh, const mimicry_target_options* options,
+                                   mimicry_target** out) {
   return made(out, [&] {
     require(mesh, "mesh");
     return named(mesh->name, [&] {
-      const spatial::TargetOptions options{allow_nonmanifold != 0};
-      return mimicry_target{std::make_shared<const spatial::Target>(mesh->mesh, options), nullptr};
+      const mimicry_target_options o = options ? *options : mimicry_default_target_options();
+      auto target = std::make_shared<const spatial::Target>(
+          mesh->mesh, spatial::TargetOptions{.join = o.join != 0, .strict = o.strict != 0});
+      auto view = view_of(*target);
+      return mimicry_target{std::move(target), std::move(view), nullptr};
     });
   });
+}
+
+mimicry_status mimicry_target_create(const mimicry_mesh* mesh, int32_t, mimicry_target** out) {
+  return mimicry_target_make(mesh, nullptr, out);
+}
+
+const char* mimicry_target_notes(const mimicry_target* target) {
+  return target ? target->view->notes.c_str() : "";
+}
+size_t mimicry_target_surface_vertex_count(const mimicry_target* target) {
+  return target ? target->view->surface_sources.size() : 0;
+}
+const int32_t* mimicry_target_surface_sources(const mimicry_target* target) {
+  return target ? target->view->surface_sources.data() : nullptr;
+}
+const int32_t* mimicry_target_surface_faces(const mimicry_target* target) {
+  return target ? target->target->mesh().faces()[0].data() : nullptr;
+}
+const int32_t* mimicry_target_surface_vertices(const mimicry_target* target) {
+  return target ? target->view->surface_vertices.data() : nullptr;
 }
 
 void mimicry_target_destroy(mimicry_target* target) {
@@ -49,7 +97,9 @@ void mimicry_target_destroy(mimicry_target* target) {
 }
 
 const double* mimicry_target_vertex_normals(const mimicry_target* target) {
-  return target ? target->target->vertex_normals()[0].data() : nullptr;
+  if (!target) return nullptr;
+  const std::vector<Vec3>& own = target->view->normals;
+  return own.empty() ? target->target->vertex_normals()[0].data() : own[0].data();
 }
 double mimicry_target_diagonal(const mimicry_target* target) {
   return target ? target->target->diagonal() : 0.0;
@@ -92,7 +142,7 @@ mimicry_status mimicry_target_with_embedding(const mimicry_target* target, const
       };
       const std::shared_ptr<Pair> pair(new Pair{
           target->target, {io::read_embedding(content(data, size), file), *target->target}});
-      return mimicry_target{target->target, {pair, &pair->projector}};
+      return mimicry_target{target->target, target->view, {pair, &pair->projector}};
     });
   });
 }

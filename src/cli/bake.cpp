@@ -20,7 +20,7 @@ struct BakeArguments {
   std::string mesh;
   std::string out;
   BakeSettings bake;
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
 };
 
 // Time of each stage, from the progress reports: the library itself looks at no clock.
@@ -45,9 +45,9 @@ class StageTimes {
 
 void run_bake(const BakeArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  (void)make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   StageTimes times;
-  const Baked baked = bake_mesh(named.mesh, args.bake, [&](const Progress& progress) {
+  const Baked baked = bake_mesh(target.mesh(), args.bake, [&](const Progress& progress) {
     times.enter(progress.stage);
     return true;
   });
@@ -84,8 +84,7 @@ void add_bake(CLI::App& app, int&) {
                    "Half the shell's thickness, part of the diagonal")
       ->check(number_between(1e-3, 0.5))
       ->capture_default_str();
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   command->callback([args] { run_bake(*args); });
 }
 

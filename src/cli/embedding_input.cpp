@@ -59,9 +59,7 @@ bool is_embedding_file(const std::string& spec) {
 
 LoadedProjector::LoadedProjector(embedding::Embedding embedding, const std::string& name) {
   try {
-    // What was baked was accepted as it is.
-    target_ = std::make_unique<spatial::Target>(mesh_of(embedding),
-                                                spatial::TargetOptions{.allow_nonmanifold = true});
+    target_ = std::make_unique<spatial::Target>(mesh_of(embedding));
     projector_ = std::make_unique<embedding::SmoothProjector>(std::move(embedding), *target_);
   } catch (const Error& error) {
     throw Error(error.kind(), name + ": " + error.what());

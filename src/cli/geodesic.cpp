@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +27,7 @@ struct GeodesicArguments {
   std::optional<std::string> to;
   std::string out;
   double radius = kInfinity;
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
@@ -34,17 +36,29 @@ struct GeodesicArguments {
                                             "its barycentric coordinates)");
 }
 
-// v17, or face,b0,b1,b2.
-SurfacePoint parse_point(const std::string& text, const spatial::Target& target) {
+// The surface's vertices that one of the file's became: several where sheets met in it.
+std::vector<SurfacePoint> vertex_points(const spatial::Target& target, Index v) {
+  std::set<Index> found;
+  for (Index f = 0; f < target.mesh().face_count(); ++f) {
+    if (repeats_corner(target.mesh().face(f))) continue;
+    for (int k = 0; k < 3; ++k)
+      if (source_vertex(target.mesh(), f, k) == v) found.insert(target.mesh().face(f)[at(k)]);
+  }
+  std::vector<SurfacePoint> points;
+  for (const Index s : found) points.push_back(geodesic::vertex_point(target.half_edges(), s));
+  return points;
+}
+
+// v17, or face,b0,b1,b2; of the file.
+std::vector<SurfacePoint> parse_points(const std::string& text, const spatial::Target& target) {
   if (text.starts_with('v')) {
     const auto vertex = io::parse_integer(text.substr(1));
-    if (!vertex || *vertex < 0 || *vertex >= target.mesh().vertex_count())
-      refuse(text,
-             "the mesh has vertices 0 to " + std::to_string(target.mesh().vertex_count() - 1));
-    const auto v = static_cast<Index>(*vertex);
-    const SurfacePoint p = geodesic::vertex_point(target.half_edges(), v);
-    if (p.face == kNone) refuse(text, "no face has this vertex");
-    return p;
+    const Index count = source_vertex_count(target.mesh());
+    if (!vertex || *vertex < 0 || *vertex >= count)
+      refuse(text, "the mesh has vertices 0 to " + std::to_string(count - 1));
+    std::vector<SurfacePoint> points = vertex_points(target, static_cast<Index>(*vertex));
+    if (points.empty()) refuse(text, "no face has this vertex");
+    return points;
   }
   std::vector<double> numbers;
   for (std::size_t start = 0; start <= text.size();) {
@@ -60,25 +74,27 @@ SurfacePoint parse_point(const std::string& text, const spatial::Target& target)
     refuse(text, "the mesh has faces 0 to " + std::to_string(target.mesh().face_count() - 1));
   const SurfacePoint p{static_cast<Index>(numbers[0]), Vec3(numbers[1], numbers[2], numbers[3])};
   geodesic::check_surface_point(target.mesh(), p, "point '" + text + "'");
-  return p;
+  if (repeats_corner(target.mesh().face(p.face)))
+    refuse(text, "this face was left out of the surface: it is collapsed, or lies on another");
+  return {source_point(target.mesh(), p)};
 }
 
 nlohmann::ordered_json point_json(const SurfacePoint& p, const TriangleMesh& mesh) {
-  const Vec3 x = mesh.position(p);
-  return {{"face", p.face},
-          {"bary", {p.bary[0], p.bary[1], p.bary[2]}},
-          {"position", {x[0], x[1], x[2]}}};
+  const Vec3 x = mesh.position(p), bary = source_point(mesh, p).bary;
+  return {
+      {"face", p.face}, {"bary", {bary[0], bary[1], bary[2]}}, {"position", {x[0], x[1], x[2]}}};
 }
 
 std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesic::Source>& sources,
                       const SurfacePoint& to, const TriangleMesh& mesh) {
   nlohmann::ordered_json crossings = nlohmann::ordered_json::array();
-  for (const Crossing& c : path.crossings) {
-    const Face& f = mesh.face(HalfEdges::face(c.half_edge));
-    const auto k = static_cast<std::size_t>(HalfEdges::corner(c.half_edge));
-    const Vec3 x = position(mesh, c);
+  for (const Crossing& crossing : path.crossings) {
+    const Index f = HalfEdges::face(crossing.half_edge);
+    const Crossing c = source_crossing(mesh, crossing);
+    const int k = HalfEdges::corner(c.half_edge);
+    const Vec3 x = position(mesh, crossing);
     crossings.push_back({{"half_edge", c.half_edge},
-                         {"edge", {f[k], f[(k + 1) % 3]}},
+                         {"edge", {source_corner(mesh, f, k), source_corner(mesh, f, (k + 1) % 3)}},
                          {"t", c.t},
                          {"position", {x[0], x[1], x[2]}}});
   }
@@ -89,11 +105,20 @@ std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesi
   return document.dump(1) + "\n";
 }
 
-std::string distances_csv(const geodesic::ExactGeodesics& geodesics, Index vertices) {
+// Of the file's vertices; of one that became several the nearest counts.
+std::string distances_csv(const geodesic::ExactGeodesics& geodesics, const TriangleMesh& surface) {
+  std::vector<double> distances(at(source_vertex_count(surface)), kInfinity);
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    if (repeats_corner(surface.face(f))) continue;
+    for (int k = 0; k < 3; ++k) {
+      double& distance = distances[at(source_vertex(surface, f, k))];
+      distance = std::min(distance, geodesics.distance(surface.face(f)[at(k)]));
+    }
+  }
   std::string out = "vertex,distance\n";
-  for (Index v = 0; v < vertices; ++v) {
+  for (std::size_t v = 0; v < distances.size(); ++v) {
     out += std::to_string(v) + ',';
-    io::append_double(out, geodesics.distance(v));
+    io::append_double(out, distances[v]);
     out += '\n';
   }
   return out;
@@ -111,11 +136,12 @@ void check_out(const GeodesicArguments& args) {
 
 void run_geodesic(const GeodesicArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   std::vector<geodesic::Source> sources;
-  for (const std::string& text : args.from) sources.push_back({parse_point(text, target)});
+  for (const std::string& text : args.from)
+    for (const SurfacePoint& p : parse_points(text, target)) sources.push_back({p});
   std::optional<SurfacePoint> to;
-  if (args.to) to = parse_point(*args.to, target);
+  if (args.to) to = parse_points(*args.to, target).front();
 
   geodesic::ExactGeodesics geodesics(target.mesh(), target.half_edges());
   check_out(args);
@@ -131,7 +157,7 @@ void run_geodesic(const GeodesicArguments& args, int& status) {
     status = kPartly;
   }
   if (!to) {
-    files::write_file_atomically(args.out, distances_csv(geodesics, named.mesh.vertex_count()));
+    files::write_file_atomically(args.out, distances_csv(geodesics, target.mesh()));
     std::printf("%s: %d distances\n", args.out.c_str(), named.mesh.vertex_count());
     return;
   }
@@ -164,8 +190,7 @@ void add_geodesic(CLI::App& app, int& status) {
   command->add_option("--radius", args->radius, "Look no farther, mesh units")
       ->check(number_between(1e-12, 1e12));
   command->add_option("-o,--out", args->out, "path.json (with --to) or distances.csv")->required();
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces; they are not crossed");
+  add_target_options(*command, args->target);
   command->callback([args, &status] { run_geodesic(*args, status); });
 }
 

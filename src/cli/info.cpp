@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   std::string mesh;
   bool json = false;
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
 };
 
 Json array_of(const Vec3& v) {
@@ -53,7 +53,26 @@ Json component_json(const ComponentReport& c) {
           {"genus", optional_json(c.genus)}};
 }
 
-Json report_json(const std::string& name, const MeshReport& r, const std::string& refusal) {
+Json surface_json(const MeshReport& surface, const ConnectReport& c) {
+  Json doubled = first_json(c.doubled_faces);
+  if (c.doubled_faces.count > 0) doubled["copy_of"] = c.doubled_faces.first_copy_of;
+  return {{"vertices", surface.vertices},
+          {"faces", surface.faces - surface.repeated_corners.count},
+          {"unused_vertices", first_json(c.unused_vertices)},
+          {"joined_vertices", first_json(c.joined_vertices)},
+          {"joined_edges", first_json(c.joined_edges)},
+          {"seam_edges", first_json(c.seam_edges)},
+          {"split_vertices", first_json(c.split_vertices)},
+          {"split_edges", first_json(c.split_edges)},
+          {"one_sided_edges", first_json(c.one_sided_edges)},
+          {"collapsed_faces", first_json(c.repeated_corners)},
+          {"doubled_faces", doubled},
+          {"turned_faces", first_json(c.turned_faces)},
+          {"notes", c.sentences()}};
+}
+
+Json report_json(const std::string& name, const MeshReport& r, const MeshReport& surface,
+                 const ConnectReport& connection, const std::string& refusal) {
   Json components = Json::array();
   for (const ComponentReport& c : r.components) components.push_back(component_json(c));
   Json duplicate = first_json(r.duplicate_faces);
@@ -64,8 +83,8 @@ Json report_json(const std::string& name, const MeshReport& r, const std::string
           {"faces", r.faces},
           {"euler", r.euler},
           {"genus", optional_json(r.genus)},
-          {"manifold", r.is_manifold()},
-          {"closed", r.is_closed()},
+          {"manifold", surface.is_manifold()},
+          {"closed", surface.is_closed()},
           {"drawable", refusal.empty()},
           {"refusal", refusal.empty() ? Json() : Json(refusal)},
           {"box", r.box.isEmpty() ? Json() : Json{array_of(r.box.min()), array_of(r.box.max())}},
@@ -85,6 +104,7 @@ Json report_json(const std::string& name, const MeshReport& r, const std::string
           {"repeated_corners", first_json(r.repeated_corners)},
           {"degenerate_faces", first_json(r.degenerate_faces)},
           {"duplicate_faces", duplicate},
+          {"surface", surface_json(surface, connection)},
           {"components", components}};
 }
 
@@ -103,9 +123,12 @@ std::string name_of(const EdgeFinding& e) {
   return "vertices " + std::to_string(e.first_tail) + "-" + std::to_string(e.first_head);
 }
 
-void print_report(const std::string& name, const MeshReport& r, const std::string& refusal) {
+void print_report(const std::string& name, const MeshReport& r, const MeshReport& surface,
+                  const ConnectReport& connection, const std::string& refusal) {
   std::printf("%s\n", name.c_str());
-  std::printf("  %-34s %d, %d, %d\n", "vertices, edges, faces", r.vertices, r.edges, r.faces);
+  std::printf("  %-34s %d, %d\n", "vertices, faces of the file", r.vertices, r.faces);
+  std::printf("  %-34s %d, %d, %d\n", "vertices, edges, faces drawn on", surface.vertices,
+              surface.edges, surface.faces - surface.repeated_corners.count);
   if (!r.box.isEmpty()) {
     const Vec3 size = r.box.sizes();
     std::printf("  %-34s %.6g x %.6g x %.6g, diagonal %.6g\n", "size", size.x(), size.y(), size.z(),
@@ -136,6 +159,8 @@ void print_report(const std::string& name, const MeshReport& r, const std::strin
                 name_of("vertex", r.isolated_vertices.first));
   print_finding("vertices that are not finite", r.invalid_vertices.count,
                 name_of("vertex", r.invalid_vertices.first));
+  for (const std::string& sentence : connection.sentences())
+    std::printf("  %s\n", sentence.c_str());
   if (refusal.empty())
     std::printf("  can be drawn on\n");
   else
@@ -144,18 +169,22 @@ void print_report(const std::string& name, const MeshReport& r, const std::strin
 
 void run_info(const InfoArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
-  const MeshReport report = validate(named.mesh);
+  const Connected connected = connect(named.mesh, {.join = args.target.join});
+  const MeshReport surface = validate(connected.mesh);
+  const MeshReport report = report_as_drawn(named.mesh, surface);
   std::string refusal;
   try {
-    (void)make_target(named, args.allow_nonmanifold);
+    (void)make_target_silently(named, args.target);
   } catch (const Error& error) {
     refusal = error.what();
     status = kBadInput;
   }
   if (args.json)
-    std::printf("%s\n", report_json(named.name, report, refusal).dump(2).c_str());
+    std::printf(
+        "%s\n",
+        report_json(named.name, report, surface, connected.report, refusal).dump(2).c_str());
   else
-    print_report(named.name, report, refusal);
+    print_report(named.name, report, surface, connected.report, refusal);
 }
 
 }  // namespace
@@ -165,8 +194,7 @@ void add_info(CLI::App& app, int& status) {
   auto args = std::make_shared<InfoArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_flag("--json", args->json, "For programs");
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces (closest points and rays work there)");
+  add_target_options(*command, args->target);
   command->callback([args, &status] { run_info(*args, status); });
 }
 

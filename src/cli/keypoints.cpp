@@ -21,13 +21,13 @@ struct KeypointsArguments {
   std::string targets;
   std::string shape;
   double scale = 0.0;
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
   bool json = false;
 };
 
 void run_keypoints(const KeypointsArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   const study::TargetSet set = load_targets(args.targets);
   const std::string wanted =
       args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
@@ -65,8 +65,7 @@ void add_keypoints(CLI::App& app, int&) {
                       "The mesh's name in --targets (default: the file's name)");
   command->add_option("--scale", args->scale, "Metres per mesh unit (default: that in --targets)")
       ->check(number_between(1e-12, 1e12));
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   command->add_flag("--json", args->json, "For programs");
   command->callback([args] { run_keypoints(*args); });
 }

@@ -70,7 +70,7 @@ void load_shape(MeasuredShape& shape, const std::string& folder, const study::Ta
                 const std::string& file) {
   try {
     const NamedMesh named = load_mesh(find_mesh_file(folder, shape.name));
-    shape.target.emplace(make_target(named, false));
+    shape.target.emplace(make_target(named));
     shape.curves = find_target_shape(set, shape.name, file);
     study::require_fits(shape.curves, named.mesh);
     for (study::TargetCurve& curve : shape.curves.curves)

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -53,9 +54,14 @@ CLI::Validator number_between(double lowest, double highest) {
 NamedMesh load_mesh(const std::string& spec) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);
   const std::string name = std::filesystem::path(spec).filename().string();
-  TriangleMesh mesh = is_embedding_file(spec)
-                          ? mesh_of(load_embedding(spec))
-                          : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name);
+  io::MeshReadOptions reading;
+  reading.note = [&name](const std::string& sentence) {
+    std::fprintf(stderr, "mimicry: %s: %s\n", name.c_str(), sentence.c_str());
+  };
+  TriangleMesh mesh =
+      is_embedding_file(spec)
+          ? mesh_of(load_embedding(spec))
+          : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name, reading);
   const double size = diagonal(mesh);
   return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
 }
@@ -69,12 +75,38 @@ std::string find_mesh_file(const std::string& folder, const std::string& name) {
               folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb, .gltf)");
 }
 
-spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold) {
+void add_target_options(CLI::App& command, spatial::TargetOptions& options) {
+  command.add_flag("!--no-join", options.join,
+                   "Leave vertices at one position apart: curves stop at seams");
+  command.add_flag("--strict", options.strict,
+                   "Refuse a mesh with flaws (edges of three or more faces, faces twice or turned "
+                   "...) rather than draw on what it is meant to be");
+  command
+      .add_flag_callback(
+          "--allow-nonmanifold",
+          [] {
+            std::fprintf(
+                stderr,
+                "mimicry: --allow-nonmanifold is no longer needed: every mesh can be drawn "
+                "on\n");
+          })
+      ->group("");
+}
+
+spatial::Target make_target_silently(const NamedMesh& named,
+                                     const spatial::TargetOptions& options) {
   try {
-    return spatial::Target(named.mesh, {allow_nonmanifold});
+    return spatial::Target(named.mesh, options);
   } catch (const Error& error) {
     throw Error(error.kind(), named.name + ": " + error.what());
   }
+}
+
+spatial::Target make_target(const NamedMesh& named, const spatial::TargetOptions& options) {
+  spatial::Target target = make_target_silently(named, options);
+  for (const std::string& sentence : target.connection().sentences())
+    std::fprintf(stderr, "mimicry: %s: %s\n", named.name.c_str(), sentence.c_str());
+  return target;
 }
 
 }  // namespace mimicry::cli

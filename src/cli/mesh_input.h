@@ -27,7 +27,13 @@ NamedMesh load_mesh(const std::string& spec);
 /// The mesh file of this name in a folder, whatever its kind. Throws Error(io) where there is none.
 std::string find_mesh_file(const std::string& folder, const std::string& name);
 
-/// A target of the mesh; errors name the mesh and, for what --allow-nonmanifold mends, that option.
-spatial::Target make_target(const NamedMesh& named, bool allow_nonmanifold);
+/// --no-join, --strict and the former --allow-nonmanifold, which says that it is not needed.
+void add_target_options(CLI::App& command, spatial::TargetOptions& options);
+
+/// A target of the mesh; errors name it. What was mended to make it is said on stderr.
+spatial::Target make_target(const NamedMesh& named, const spatial::TargetOptions& options = {});
+/// The same and says nothing.
+spatial::Target make_target_silently(const NamedMesh& named,
+                                     const spatial::TargetOptions& options = {});
 
 }  // namespace mimicry::cli

@@ -42,7 +42,7 @@ struct ProjectArguments {
   BakeSettings bake;
   double minimum_motion_mm = 0.0;
   double tube_radius = 0.0;  // model units; 0: a fraction of the diagonal
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
   bool json = false;
 };
 
@@ -259,7 +259,7 @@ void print_json(const std::vector<TechniqueRow>& rows, const std::vector<std::st
 
 void run_project(const ProjectArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   const std::string strokes_name = std::filesystem::path(args.strokes).filename().string();
   const std::vector<Stroke> strokes =
       io::read_strokes(files::read_file(args.strokes), strokes_name);
@@ -304,7 +304,7 @@ void run_project(const ProjectArguments& args) {
   // All bytes are made before the first file is written.
   std::vector<std::string> bytes;
   for (const std::string& format : args.formats)
-    bytes.push_back(file_bytes(format, set, named.mesh, radius));
+    bytes.push_back(file_bytes(format, set, target.mesh(), radius));
   std::vector<std::string> written;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     written.push_back((folder / ("curves." + args.formats[i])).string());
@@ -346,8 +346,7 @@ void add_project(CLI::App& app, int&) {
       ->add_option("--tube-radius", args->tube_radius,
                    "Of the tubes in the GLB file, mesh units (default 0.3 % of the diagonal)")
       ->check(number_between(1e-12, 1e12));
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   command->add_flag("--json", args->json, "The table for programs");
   command->callback([args] { run_project(*args); });
 }

@@ -53,7 +53,8 @@ constexpr PaperRow kPaper[] = {
 struct QualityArguments {
   std::vector<std::string> inputs;
   BakeSettings bake;
-  bool csv = false, json = false, allow_nonmanifold = false;
+  bool csv = false, json = false;
+  spatial::TargetOptions target;
 };
 
 struct QualityRow {
@@ -88,8 +89,8 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   } else {
     const NamedMesh named = load_mesh(spec);
     row.name = spec.starts_with("shape:") ? spec : named.name;
-    (void)make_target(named, args.allow_nonmanifold);
-    Baked baked = bake_mesh(named.mesh, args.bake);
+    const spatial::Target target = make_target(named, args.target);
+    Baked baked = bake_mesh(target.mesh(), args.bake);
     row.was_kept = baked.was_kept;
     e = std::move(baked.embedding);
   }
@@ -264,8 +265,7 @@ void add_quality(CLI::App& app, int& status) {
       ->required();
   add_threads_option(*command, args->bake.threads);
   add_cache_option(*command, args->bake);
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   auto* csv = command->add_flag("--csv", args->csv, "As CSV");
   command->add_flag("--json", args->json, "For programs")->excludes(csv);
   command->callback([args, &status] { run_quality(*args, status); });

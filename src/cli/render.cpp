@@ -11,6 +11,7 @@
 #include <mimicry/io/curves.h>
 #include <mimicry/io/number.h>
 #include <mimicry/io/strokes.h>
+#include <mimicry/mesh/connect.h>
 #include <mimicry/render/figure.h>
 #include <mimicry/render/palette.h>
 #include <mimicry/render/png.h>
@@ -139,6 +140,8 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveS
 
 void run_render(const RenderArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
+  // Intended curves are on the surface, whose faces may be turned.
+  const TriangleMesh drawn_on = connect(named.mesh).mesh;
   const double size = diagonal(named.mesh);
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
   render::Scene scene;
@@ -156,7 +159,7 @@ void run_render(const RenderArguments& args) {
     if (!args.stroke.empty() && stroke.id != args.stroke) continue;
     scene.tubes.push_back(stroke_tube(stroke, radius));
     if (args.intended && stroke.intended)
-      scene.tubes.push_back(intended_tube(*stroke.intended, named.mesh, radius));
+      scene.tubes.push_back(intended_tube(*stroke.intended, drawn_on, radius));
   }
   io::CurveSet set;
   if (!args.curves.empty())

@@ -163,7 +163,7 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
   try {
     const NamedMesh named =
         load_mesh(options_.mesh.empty() ? mesh_spec(options_.shapes, name) : options_.mesh);
-    shape.target.emplace(make_target(named, false));
+    shape.target.emplace(make_target(named));
     if (study_) shape.study = study_->find(fs::path(name).stem().string());
     if (shape.study != nullptr) {
       study::require_fits(*shape.study->shape, named.mesh);

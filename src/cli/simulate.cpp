@@ -36,7 +36,7 @@ struct SimulateArguments {
   double distance_m = 0.048;
   double scale = 0.0;  // metres per mesh unit
   std::string up = "y";
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
 };
 
 struct Task {
@@ -107,7 +107,7 @@ bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) 
 
 void run_simulate(const SimulateArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   const Task task = task_of(args, named, target);
   const double scale = args.scale > 0.0 ? args.scale : task.metres_per_unit;
   const Similarity placed = placement(target, scale, args.up == "z");
@@ -173,8 +173,7 @@ void add_simulate(CLI::App& app, int&) {
   command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   command->add_option("--scale", args->scale, "Metres per mesh unit (default: the shape's own)")
       ->check(number_between(1e-12, 1e12));
   command->callback([args] { run_simulate(*args); });

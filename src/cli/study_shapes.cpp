@@ -62,7 +62,7 @@ std::string StudyShapes::name(Index number) const {
 spatial::Target StudyShapes::load(const StudyShape& shape) const {
   const NamedMesh named = load_mesh(mesh_spec(folder_, shape.shape->name));
   study::require_fits(*shape.shape, named.mesh);
-  return make_target(named, false);
+  return make_target(named);
 }
 
 Similarity placement(const spatial::Target& target, double metres_per_unit, bool z_up) {

@@ -39,7 +39,7 @@ struct TargetsArguments {
   study::TargetSampling sampling;
   std::vector<double> k_g;
   std::vector<double> k_n_deg;
-  bool allow_nonmanifold = false;
+  spatial::TargetOptions target;
   bool no_picture = false;
 };
 
@@ -87,7 +87,7 @@ void run_targets(const TargetsArguments& args) {
   set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
   set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);
   const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.allow_nonmanifold);
+  const spatial::Target target = make_target(named, args.target);
   const double scale = args.scale > 0.0 ? args.scale : named.metres_per_unit;
   // A technique that needs the bake stands for the splines, which do.
   const technique::TechniqueInfo* needs = &technique::find_technique("mimicry");
@@ -175,8 +175,7 @@ void add_targets(CLI::App& app, int&) {
   command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
-  command->add_flag("--allow-nonmanifold", args->allow_nonmanifold,
-                    "Accept edges with three or more faces");
+  add_target_options(*command, args->target);
   command->callback([args] { run_targets(*args); });
 }
 

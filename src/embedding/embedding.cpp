@@ -29,7 +29,9 @@ std::uint64_t word(double x) {
 
 TriangleMesh mesh_of(const Embedding& e) {
   assert(e.mesh_vertex_count >= 0 && e.mesh_vertex_count <= e.vertex_count());
-  return {{e.positions.begin(), e.positions.begin() + e.mesh_vertex_count}, e.faces};
+  TriangleMesh mesh({e.positions.begin(), e.positions.begin() + e.mesh_vertex_count}, e.faces);
+  mesh.mark_connected();  // a surface is what is baked
+  return mesh;
 }
 
 void sort_for_search(Embedding& e) {

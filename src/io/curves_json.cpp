@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <mimicry/io/curves.h>
+#include <mimicry/mesh/mesh_source.h>
 
 #include "io/json.h"
 
@@ -28,9 +29,9 @@ const char* kind_name(PieceKind kind) {
   return "";
 }
 
-OrderedJson point_json(const CurvePoint& p) {
+OrderedJson point_json(const CurvePoint& p, const TriangleMesh& mesh) {
   return {{"face", p.surface.face},
-          {"bary", array_of(p.surface.bary)},
+          {"bary", array_of(source_point(mesh, p.surface).bary)},
           {"position", array_of(p.position)},
           {"normal", array_of(p.normal)},
           {"frame", p.frame},
@@ -40,11 +41,13 @@ OrderedJson point_json(const CurvePoint& p) {
 
 OrderedJson piece_json(const ProjectedCurve& curve, std::size_t i, const TriangleMesh& mesh) {
   OrderedJson crossings = OrderedJson::array();
-  for (const Crossing& c : curve.piece_crossings(i)) {
-    const Face& face = mesh.face(HalfEdges::face(c.half_edge));
-    const auto corner = static_cast<std::size_t>(HalfEdges::corner(c.half_edge));
+  for (const Crossing& crossing : curve.piece_crossings(i)) {
+    const Index f = HalfEdges::face(crossing.half_edge);
+    const Crossing c = source_crossing(mesh, crossing);
+    const int k = HalfEdges::corner(c.half_edge);
+    const auto own = [&](int corner) { return source_corner(mesh, f, corner); };
     crossings.push_back(
-        {{"half_edge", c.half_edge}, {"edge", {face[corner], face[(corner + 1) % 3]}}, {"t", c.t}});
+        {{"half_edge", c.half_edge}, {"edge", {own(k), own((k + 1) % 3)}}, {"t", c.t}});
   }
   return {{"kind", kind_name(curve.pieces[i].kind)},
           {"length", curve.pieces[i].length},
@@ -55,7 +58,7 @@ OrderedJson curve_json(const CurveRecord& record, const TriangleMesh& mesh) {
   OrderedJson options = OrderedJson::object();
   for (const auto& [name, values] : record.options) options[name] = values;
   OrderedJson points = OrderedJson::array();
-  for (const CurvePoint& p : record.curve.points) points.push_back(point_json(p));
+  for (const CurvePoint& p : record.curve.points) points.push_back(point_json(p, mesh));
   OrderedJson pieces = OrderedJson::array();
   for (std::size_t i = 0; i < record.curve.pieces.size(); ++i)
     pieces.push_back(piece_json(record.curve, i, mesh));
@@ -84,6 +87,7 @@ CurvePoint read_point(const Json& value, const TriangleMesh& mesh, const std::st
   CurvePoint p;
   p.surface.face = bounded(member(value, "face", where), mesh.face_count(), where + ": face");
   p.surface.bary = barycentrics(member(value, "bary", where), where);
+  p.surface = source_point(mesh, p.surface);
   p.position = vector<3>(member(value, "position", where), where + ": position");
   p.normal = vector<3>(member(value, "normal", where), where + ": normal");
   p.frame = index(member(value, "frame", where), where + ": frame");
@@ -109,7 +113,7 @@ Piece read_piece(const Json& value, const TriangleMesh& mesh, std::vector<Crossi
         bounded(member(c, "half_edge", where), 3 * mesh.face_count(), where + ": half_edge");
     const double t = number(member(c, "t", where), where + ": t");
     if (!(t >= 0.0 && t <= 1.0)) json_fail(where, "'t' is not between 0 and 1");
-    crossings.push_back({h, t});
+    crossings.push_back(source_crossing(mesh, {h, t}));
   }
   piece.crossing_count = static_cast<std::uint32_t>(list.size());
   return piece;
@@ -156,7 +160,7 @@ CurveRecord read_record(const Json& value, const TriangleMesh& mesh, const std::
 
 std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh) {
   const OrderedJson target = {
-      {"name", set.target}, {"vertices", mesh.vertex_count()}, {"faces", mesh.face_count()}};
+      {"name", set.target}, {"vertices", source_vertex_count(mesh)}, {"faces", mesh.face_count()}};
   const auto replace = OrderedJson::error_handler_t::replace;
   std::string out = "{\"format\":\"" + std::string(kCurvesFormat) +
                     "\",\"version\":" + std::to_string(kCurvesVersion) +
@@ -190,10 +194,10 @@ CurveSet read_curves_json(std::string_view bytes, std::string_view name, const T
   set.target = text(member(target, "name", file), file + ": target: name");
   const Index vertices = index(member(target, "vertices", file), file + ": target: vertices");
   const Index faces = index(member(target, "faces", file), file + ": target: faces");
-  if (vertices != mesh.vertex_count() || faces != mesh.face_count())
+  if (vertices != source_vertex_count(mesh) || faces != mesh.face_count())
     json_fail(file, "was drawn on a mesh of " + std::to_string(vertices) + " vertices and " +
                         std::to_string(faces) + " faces; this one has " +
-                        std::to_string(mesh.vertex_count()) + " and " +
+                        std::to_string(source_vertex_count(mesh)) + " and " +
                         std::to_string(mesh.face_count()));
   const Json& curves = member(document, "curves", file);
   if (!curves.is_array()) json_fail(file, "'curves' is not an array");

@@ -1,5 +1,6 @@
 #include <mimicry/io/curves.h>
 #include <mimicry/io/number.h>
+#include <mimicry/mesh/mesh_source.h>
 
 #include "io/text.h"
 
@@ -67,7 +68,8 @@ std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh) {
         if (record.curve.pieces[i - 1].kind == PieceKind::gap) ++part;
         for (const Crossing& crossing : record.curve.piece_crossings(i - 1)) {
           out += labels + std::to_string(part) + ",crossing,,,";
-          append_csv_place(out, position(mesh, crossing), surface_point(crossing));
+          append_csv_place(out, position(mesh, crossing),
+                           source_point(mesh, surface_point(crossing)));
           out += ",,,,\n";
         }
       }
@@ -75,7 +77,7 @@ std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh) {
       out += labels + std::to_string(part) + ",point," + std::to_string(p.frame) + ',';
       append_double(out, p.time_s);
       out += ',';
-      append_csv_place(out, p.position, p.surface);
+      append_csv_place(out, p.position, source_point(mesh, p.surface));
       out += ',';
       append_position(out, p.normal, ',');
       out += ',';

@@ -49,9 +49,12 @@ void TriangleMesh::set_positions(std::span<const Vec3> positions) {
 }
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
+  std::vector<bool> used(at(mesh.vertex_count()), false);
+  for (const Face& f : mesh.faces())
+    for (const Index v : f) used[at(v)] = true;
   Eigen::AlignedBox3d box;
-  for (const Vec3& p : mesh.positions())
-    if (is_finite(p)) box.extend(p);
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (used[at(v)] && is_finite(mesh.position(v))) box.extend(mesh.position(v));
   return box;
 }
 

@@ -8,6 +8,8 @@
 #include <mimicry/base/finite.h>
 #include <mimicry/mesh/validation.h>
 
+#include "mesh/sets.h"
+
 namespace mimicry {
 namespace {
 
@@ -16,54 +18,6 @@ constexpr double kLargestCoordinate = 1e100;
 bool is_valid(const Vec3& p) {
   return is_finite(p) && p.cwiseAbs().maxCoeff() <= kLargestCoordinate;
 }
-
-bool repeats_corner(const Face& f) {
-  return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
-}
-
-// Union-find with the parity of each element against its root; the root is the lowest number.
-class Sets {
- public:
-  explicit Sets(Index count) : parents_(at(count)), odd_(at(count), false) {
-    std::iota(parents_.begin(), parents_.end(), Index{0});
-  }
-  struct Root {
-    Index root;
-    bool odd;
-  };
-  Root find(Index i) {
-    Index root = i;
-    bool odd = false;
-    while (parents_[at(root)] != root) {
-      odd ^= odd_[at(root)];
-      root = parents_[at(root)];
-    }
-    bool rest = odd;
-    while (parents_[at(i)] != root && i != root) {
-      const Index next = parents_[at(i)];
-      const bool step = odd_[at(i)];
-      parents_[at(i)] = root;
-      odd_[at(i)] = rest;
-      rest ^= step;
-      i = next;
-    }
-    return {root, odd};
-  }
-  Index root(Index i) { return find(i).root; }
-  // False where the two are already together with another parity.
-  bool join(Index a, Index b, bool odd = false) {
-    Root x = find(a), y = find(b);
-    if (x.root == y.root) return (x.odd ^ y.odd) == odd;
-    if (y.root < x.root) std::swap(x, y);
-    parents_[at(y.root)] = x.root;
-    odd_[at(y.root)] = x.odd ^ y.odd ^ odd;
-    return true;
-  }
-
- private:
-  std::vector<Index> parents_;
-  std::vector<bool> odd_;
-};
 
 struct Side {
   Index low, high;  // ends of the edge, low < high
@@ -144,18 +98,18 @@ MeshReport validate(const TriangleMesh& mesh) {
   report.faces = mesh.face_count();
 
   std::vector<bool> valid(at(mesh.vertex_count())), used(at(mesh.vertex_count()), false);
+  for (const Face& f : mesh.faces())
+    for (const Index v : f) used[at(v)] = true;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     valid[at(v)] = is_valid(mesh.position(v));
-    if (valid[at(v)])
+    if (!used[at(v)])
+      note(report.isolated_vertices, v);
+    else if (valid[at(v)])
       report.box.extend(mesh.position(v));
     else
       note(report.invalid_vertices, v);
   }
   if (!report.box.isEmpty()) report.diagonal = report.box.diagonal().norm();
-  for (const Face& f : mesh.faces())
-    for (const Index v : f) used[at(v)] = true;
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (!used[at(v)]) note(report.isolated_vertices, v);
   check_faces(mesh, valid, report);
 
   std::vector<Side> sides;

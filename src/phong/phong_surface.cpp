@@ -143,6 +143,7 @@ FaceEquation PhongSurface::equation(Index face, const Vec8& y) const {
 
 void PhongSurface::consider(Index face, const Vec8& y, SurfacePoint& best,
                             double& distance2) const {
+  if (repeats_corner(faces_[at(face)].corners)) return;  // no part of the surface
   const FaceEquation::Solutions solutions = equation(face, y).solve(size_);
   for (std::size_t i = 0; i < solutions.count; ++i) {
     const SurfacePoint p = {face, solutions.b[i]};
@@ -193,7 +194,8 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   const double near2 = kStanding * kStanding * size_ * size_;
   if (distance2 > near2)
     bvh_.nearest(y, near2, [&](Index face, spatial::NoPack, double bound2) {
-      consider_standing(face, triangle(face), y, near2, best, distance2);
+      if (!repeats_corner(faces_[at(face)].corners))
+        consider_standing(face, triangle(face), y, near2, best, distance2);
       return bound2;
     });
   if (best.face == kNone) return std::nullopt;
@@ -207,7 +209,8 @@ std::optional<PhongPoint> PhongSurface::project_exhaustively(const Vec8& y) cons
   const double near2 = kStanding * kStanding * size_ * size_;
   if (distance2 > near2)
     for (Index face = 0; face < face_count(); ++face)
-      consider_standing(face, triangle(face), y, near2, best, distance2);
+      if (!repeats_corner(faces_[at(face)].corners))
+        consider_standing(face, triangle(face), y, near2, best, distance2);
   if (best.face == kNone) return std::nullopt;
   return PhongPoint{best, std::sqrt(distance2)};
 }

@@ -30,16 +30,16 @@ bool is_usable(const Vec3& x) {
   return is_finite(x) && x.cwiseAbs().maxCoeff() <= kFarthestQuery;
 }
 
-// Positions that a target can stand on. Vertices that no face uses must be sound, too: they count
-// in the bounding box.
-void check_positions(std::span<const Vec3> positions, std::span<const Face> faces) {
-  std::size_t bad = 0, first_bad = 0;
+// Positions of a surface that a target can stand on; all of them are used.
+void check_positions(std::span<const Vec3> positions, const TriangleMesh& surface) {
+  std::size_t bad = 0;
+  Index first_bad = kNone;
   Eigen::AlignedBox3d box;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if (is_finite(positions[v])) {
       box.extend(positions[v]);
     } else if (bad++ == 0) {
-      first_bad = v;
+      first_bad = surface.source() ? surface.source()->vertex[v] : static_cast<Index>(v);
     }
   }
   if (bad > 0)
@@ -49,33 +49,25 @@ void check_positions(std::span<const Vec3> positions, std::span<const Face> face
     refuse("coordinates beyond 1e30; scale the mesh");
   const double size = box.sizes().maxCoeff();
   if (size > 0.0 && size < kSmallestSize) refuse("smaller than 1e-30; scale the mesh");
-  const bool any_area = std::any_of(faces.begin(), faces.end(), [&](const Face& f) {
-    return has_area(triangle_of(positions, f));
-  });
+  const bool any_area =
+      std::any_of(surface.faces().begin(), surface.faces().end(),
+                  [&](const Face& f) { return has_area(triangle_of(positions, f)); });
   if (!any_area)
-    refuse("none of the " + std::to_string(faces.size()) +
+    refuse("none of the " + std::to_string(surface.face_count()) +
            " faces has an area (first: face 0); repair the mesh");
 }
 
-void check_manifold(const HalfEdges& edges, Index vertices) {
-  Index bad_edges = 0, first_edge = kNone, bad_vertices = 0, first_vertex = kNone;
-  for (Index h = 0; h < edges.count(); ++h)
-    if (edges.twin(h) == HalfEdges::kNonManifold && bad_edges++ == 0) first_edge = h;
-  for (Index v = 0; v < vertices; ++v)
-    if (edges.is_nonmanifold_vertex(v) && bad_vertices++ == 0) first_vertex = v;
-  const std::string remedy =
-      "; repair the mesh or allow non-manifold targets (--allow-nonmanifold)";
-  if (bad_edges > 0)
-    refuse(
-        std::to_string(bad_edges) +
-        " half-edges lie on edges with 3 or more faces, or between faces of opposite orientation "
-        "(first: vertices " +
-        std::to_string(edges.tail(first_edge)) + "-" + std::to_string(edges.head(first_edge)) +
-        ")" + remedy);
-  if (bad_vertices > 0)
-    refuse(std::to_string(bad_vertices) +
-           " vertices join faces that share no edge there (first: vertex " +
-           std::to_string(first_vertex) + ")" + remedy);
+void check_flawless(const ConnectReport& report) {
+  std::string flaws;
+  for (const std::string& sentence : report.sentences()) flaws += "; " + sentence;
+  if (report.is_flawed())
+    refuse("strictly, this mesh is refused" + flaws + "; repair it, or let it be mended");
+}
+
+Eigen::AlignedBox3d box_of(std::span<const Vec3> positions) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : positions) box.extend(p);
+  return box;
 }
 
 // Unit length; zero where there is no direction.
@@ -90,18 +82,21 @@ Vec3 unit(const Vec3& direction) {
 
 }  // namespace
 
-Target::Target(TriangleMesh mesh, const TargetOptions& options) : mesh_(std::move(mesh)) {
-  if (mesh_.face_count() == 0) refuse("the mesh has no faces; give one with triangles");
-  check_positions(mesh_.positions(), mesh_.faces());
-  half_edges_ = HalfEdges(mesh_);
-  if (!options.allow_nonmanifold && !half_edges_.is_manifold())
-    check_manifold(half_edges_, mesh_.vertex_count());
+Target::Target(TriangleMesh mesh, const TargetOptions& options) {
+  if (mesh.face_count() == 0) refuse("the mesh has no faces; give one with triangles");
+  Connected connected = connect(std::move(mesh), {.join = options.join});
+  mesh_ = std::move(connected.mesh);
+  half_edges_ = std::move(connected.half_edges);
+  connection_ = connected.report;
+  check_positions(mesh_.positions(), mesh_);
+  if (options.strict) check_flawless(connection_);
+  if (mesh_.source()) moved_.resize(mesh_.positions().size());
   normals_ = angle_weighted_normals(mesh_);
   visible_normals_ = normals_;
   make_visible(mesh_, half_edges_, visible_normals_);
   bvh_ = Bvh<3, Triangle>(mesh_.face_count(),
                           [&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
-  box_ = mimicry::bounding_box(mesh_);
+  box_ = box_of(mesh_.positions());
   diagonal_ = box_.diagonal().norm();
 }
 
@@ -137,19 +132,27 @@ void Target::all_hits(const Vec3& origin, const Vec3& direction, std::vector<Ray
 }
 
 void Target::update_positions(std::span<const Vec3> positions) {
-  if (positions.size() == mesh_.positions().size()) check_positions(positions, mesh_.faces());
+  if (const MeshSource* source = mesh_.source()) {
+    if (positions.size() != source->surface_vertex.size())
+      refuse(std::to_string(positions.size()) + " new positions for " +
+             std::to_string(source->surface_vertex.size()) + " vertices");
+    for (std::size_t v = 0; v < moved_.size(); ++v) moved_[v] = positions[at(source->vertex[v])];
+    positions = moved_;
+  }
+  if (positions.size() == mesh_.positions().size()) check_positions(positions, mesh_);
   mesh_.set_positions(positions);
   angle_weighted_normals(mesh_, normals_);
   std::copy(normals_.begin(), normals_.end(), visible_normals_.begin());
   make_visible(mesh_, half_edges_, visible_normals_);
   bvh_.refit([&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
-  box_ = mimicry::bounding_box(mesh_);
+  box_ = box_of(mesh_.positions());
   diagonal_ = box_.diagonal().norm();
 }
 
 std::size_t Target::memory_bytes() const {
   return mesh_.memory_bytes() + half_edges_.memory_bytes() +
-         (normals_.capacity() + visible_normals_.capacity()) * sizeof(Vec3) + bvh_.memory_bytes();
+         (normals_.capacity() + visible_normals_.capacity() + moved_.capacity()) * sizeof(Vec3) +
+         bvh_.memory_bytes();
 }
 
 }  // namespace mimicry::spatial

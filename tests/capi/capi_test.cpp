@@ -305,6 +305,47 @@ TEST(CApi, ReportsAMesh) {
   EXPECT_NEAR(mimicry_mesh_metres_per_unit(mesh.get()), 0.6 / std::sqrt(2.0), 1e-12);
 }
 
+TEST(CApi, TargetsStandOnTheSurfaceAndSpeakOfTheMesh) {
+  // A square of two triangles with vertices of their own, the second turned; a stray vertex.
+  const double positions[] = {9, 9, 9, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+  const int32_t faces[] = {1, 2, 3, 4, 6, 5};
+  const auto mesh =
+      make<Mesh>(mimicry_mesh_create, positions, std::size_t{7}, faces, std::size_t{2}, "square");
+  const auto target = make<Target>(mimicry_target_make, mesh.get(), nullptr);
+  EXPECT_THAT(mimicry_target_notes(target.get()), HasSubstr("1 seam edge was closed"));
+  EXPECT_THAT(mimicry_target_notes(target.get()), HasSubstr("1 face was turned"));
+  ASSERT_EQ(mimicry_target_surface_vertex_count(target.get()), 4u);
+  const int32_t* sources = mimicry_target_surface_sources(target.get());
+  EXPECT_EQ(std::vector<int32_t>(sources, sources + 4), (std::vector<int32_t>{1, 2, 3, 6}));
+  const int32_t* vertices = mimicry_target_surface_vertices(target.get());
+  EXPECT_EQ(std::vector<int32_t>(vertices, vertices + 7),
+            (std::vector<int32_t>{-1, 0, 1, 2, 0, 2, 3}));
+  const int32_t* corners = mimicry_target_surface_faces(target.get());
+  EXPECT_EQ(std::vector<int32_t>(corners, corners + 6), (std::vector<int32_t>{0, 1, 2, 0, 2, 3}));
+  const double* normals = mimicry_target_vertex_normals(target.get());
+  EXPECT_EQ(normals[2], 0.0);
+  for (int v = 1; v < 7; ++v) EXPECT_EQ(normals[3 * v + 2], 1.0) << v;
+  EXPECT_DOUBLE_EQ(mimicry_target_diagonal(target.get()), std::sqrt(2.0));
+  // Barycentrics are of the mesh's own corners.
+  const double y[] = {0.2, 0.7, 1.0};
+  mimicry_surface_point found;
+  ASSERT_EQ(mimicry_target_closest_point(target.get(), y, INFINITY, -1, &found), MIMICRY_OK);
+  ASSERT_EQ(found.face, 1);
+  for (int d = 0; d < 3; ++d) {
+    double x = 0;
+    for (int k = 0; k < 3; ++k) x += found.barycentric[k] * positions[3 * faces[3 + k] + d];
+    EXPECT_NEAR(x, found.position[d], 1e-15);
+  }
+  const mimicry_target_options strict{1, 1};
+  mimicry_target* none = nullptr;
+  EXPECT_EQ(mimicry_target_make(mesh.get(), &strict, &none), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("square: target: strictly"));
+  const mimicry_target_options apart{0, 0};
+  const auto open = make<Target>(mimicry_target_make, mesh.get(), &apart);
+  EXPECT_EQ(mimicry_target_surface_vertex_count(open.get()), 6u);
+  EXPECT_THAT(mimicry_target_notes(open.get()), HasSubstr("1 seam edge is not joined"));
+}
+
 TEST(CApi, BadInputIsAStatusAndASentence) {
   mimicry_mesh* mesh = nullptr;
   EXPECT_EQ(mimicry_mesh_read("hello", 5, "notes.txt", &mesh), MIMICRY_UNSUPPORTED);

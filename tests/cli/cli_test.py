@@ -75,10 +75,12 @@ class CommandLine(unittest.TestCase):
         self.assertEqual((report["genus"], report["closed"], report["drawable"]), (2, True, True))
         book = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"
         mesh = self.write("book.obj", book)
-        done = run("info", mesh, expect=3)
+        done = run("info", mesh)
         self.assertIn("non-manifold edges                 1 (first: vertices 0-1)", done.stdout)
-        self.assertIn("--allow-nonmanifold", done.stdout)
-        run("info", mesh, "--allow-nonmanifold")
+        self.assertIn("1 edge of three or more faces was split", done.stdout)
+        done = run("info", mesh, "--strict", expect=3)
+        self.assertIn("cannot be drawn on: book.obj: target: strictly", done.stdout)
+        self.assertIn("no longer needed", run("info", mesh, "--allow-nonmanifold").stderr)
 
     def test_errors_name_thing_place_and_remedy(self):
         def fails(expect, *args):

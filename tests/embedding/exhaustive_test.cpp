@@ -31,7 +31,7 @@ constexpr bool kIsFast = false;
 void expect_the_same(const std::string& name, const TriangleMesh& mesh, std::uint64_t seed) {
   BakeOptions options;
   options.samples = 60;  // of no matter to the search
-  const spatial::Target target(mesh, {.allow_nonmanifold = true});
+  const spatial::Target target(mesh);
   const SmoothProjector projector(bake::bake(mesh, options, 2), target);
   Random random(seed);
   std::vector<Vec3> points;

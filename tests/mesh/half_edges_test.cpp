@@ -83,8 +83,13 @@ TEST(HalfEdges, IsolatedVertexHasNoHalfEdge) {
   EXPECT_TRUE(edges.is_boundary_vertex(3));
 }
 
-TEST(HalfEdges, FaceThatNamesAVertexTwiceIsNonManifoldButNoCrash) {
-  EXPECT_FALSE(HalfEdges(TriangleMesh({Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 1, 1}})).is_manifold());
+TEST(HalfEdges, FaceThatNamesAVertexTwiceHasNoNeighbours) {
+  const HalfEdges edges(TriangleMesh({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                                     {{0, 1, 1}, {0, 1, 2}, {2, 2, 2}}));
+  EXPECT_TRUE(edges.is_manifold());
+  for (Index h = 0; h < edges.count(); ++h) EXPECT_EQ(edges.twin(h), kNone);
+  EXPECT_EQ(HalfEdges::face(edges.outgoing(0)), 1);
+  EXPECT_EQ(HalfEdges::face(edges.outgoing(2)), 1);
 }
 
 }  // namespace

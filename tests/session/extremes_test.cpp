@@ -93,8 +93,7 @@ TEST(Extremes, SmallAndOddTargets) {
   const stroke::Stroke stroke = test::waving_stroke(100);
   for (const TriangleMesh& mesh :
        {one, make_two_spheres(4), make_grid(4), make_moebius_strip(16)}) {
-    // The Moebius strip's seam has two faces in the same direction: allowed on request.
-    const spatial::Target target(mesh, {.allow_nonmanifold = true});
+    const spatial::Target target(mesh);
     for (const auto& info : technique::techniques()) {
       if (info.needs_bake) continue;  // baked_test.cpp
       for (const auto& p : project({&target}, info, stroke).points)

@@ -27,9 +27,9 @@ TriangleMesh one_triangle() {
   return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
 }
 
-std::string refusal(const TriangleMesh& mesh) {
+std::string refusal(const TriangleMesh& mesh, const TargetOptions& options = {}) {
   try {
-    Target target(mesh);
+    Target target(mesh, options);
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::invalid_input);
     return e.what();
@@ -137,8 +137,7 @@ TEST(Target, FaceWithoutAreaIsNeverTheClosest) {
   // Face 0 lies in the middle of the side that both others share.
   const Target target(
       {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)},
-       {{0, 2, 1}, {0, 1, 3}, {1, 0, 4}}},
-      {.allow_nonmanifold = true});
+       {{0, 2, 1}, {0, 1, 3}, {1, 0, 4}}});
   EXPECT_EQ(target.closest_point(Vec3(0.5, 0, 1))->surface.face, 1);
   EXPECT_EQ(target.first_hit(Vec3(0.5, 0, 1), Vec3(0, 0, -1))->surface.face, 1);
 }
@@ -156,19 +155,62 @@ TEST(Target, RefusesWhatCannotBeDrawnOn) {
               HasSubstr("smaller than 1e-30"));
 }
 
-TEST(Target, RefusesNonManifoldUnlessAllowed) {
+TEST(Target, MendsNonManifoldUnlessStrict) {
   const TriangleMesh book(
       {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)},
       {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  EXPECT_THAT(refusal(book), HasSubstr("(first: vertices 0-1)"));
+  EXPECT_THAT(refusal(book, {.strict = true}),
+              HasSubstr("1 edge of three or more faces was split (first: vertices 0-1)"));
   const TriangleMesh bow(
       {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(-1, 0, 0), Vec3(-1, -1, 0)},
       {{0, 1, 2}, {0, 3, 4}});
-  EXPECT_THAT(refusal(bow), HasSubstr("1 vertices join faces"));
+  EXPECT_THAT(refusal(bow, {.strict = true}),
+              HasSubstr("1 vertex where sheets meet was split (first: vertex 0)"));
   for (const TriangleMesh& mesh : {book, bow}) {
-    const Target target(mesh, {.allow_nonmanifold = true});
+    const Target target(mesh);
+    EXPECT_TRUE(target.half_edges().is_manifold());
     EXPECT_TRUE(target.closest_point(Vec3(3, 3, 3)).has_value());
   }
+}
+
+TEST(Target, StandsOnWhatFacesUse) {
+  // A stray vertex far away, and one that is no number.
+  const Target target(
+      {{Vec3(1e6, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(kNaN, kNaN, kNaN)},
+       {{1, 2, 3}}},
+      {.strict = true});
+  EXPECT_DOUBLE_EQ(target.diagonal(), std::sqrt(2.0));
+  EXPECT_EQ(target.connection().unused_vertices.count, 2);
+}
+
+TEST(Target, FacesThatAreLeftOutAreNeverMet) {
+  // A square, and its first face again from behind.
+  const Target target({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},
+                       {{0, 1, 2}, {0, 2, 1}, {0, 2, 3}, {0, 0, 2}}});
+  EXPECT_EQ(target.mesh().face_count(), 4);
+  std::vector<RayHit> hits;
+  target.all_hits(Vec3(0.7, 0.3, 1), Vec3(0, 0, -1), hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].surface.face, 0);
+  // Through the corner that the collapsed faces shrink to.
+  hits.clear();
+  target.all_hits(Vec3(0, 0, 1), Vec3(0, 0, -1), hits);
+  for (const RayHit& hit : hits) EXPECT_TRUE(hit.surface.face == 0 || hit.surface.face == 2);
+  EXPECT_EQ(target.closest_point(Vec3(0, 0, 1))->surface.face, 0);
+  EXPECT_EQ(target.vertex_normals()[0], Vec3(0, 0, 1));
+}
+
+TEST(Target, MovedSeamsStayClosed) {
+  // Two triangles with vertices of their own along a seam; positions come by the caller's numbers.
+  const std::vector<Vec3> flat = {Vec3(9, 9, 9), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
+                                  Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  Target target({flat, {{1, 2, 3}, {4, 5, 6}}});
+  EXPECT_EQ(target.mesh().vertex_count(), 4);
+  std::vector<Vec3> lifted = flat;
+  for (Vec3& x : lifted) x += Vec3(0, 0, 2);
+  target.update_positions(lifted);
+  EXPECT_EQ(target.closest_point(Vec3(0.9, 0.9, 5))->position, Vec3(0.9, 0.9, 2));
+  EXPECT_THROW(target.update_positions({lifted.data(), 4}), Error);
 }
 
 TEST(Target, MovedPositionsAnswerAsANewTarget) {

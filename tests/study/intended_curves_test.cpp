@@ -11,7 +11,7 @@ namespace mimicry::study {
 namespace {
 
 spatial::Target target_of(std::string_view shape, const ShapeOptions& options = {}) {
-  return spatial::Target(make_shape(shape, options), {.allow_nonmanifold = true});
+  return spatial::Target(make_shape(shape, options));
 }
 
 TEST(IntendedCurves, ThreeOnEveryShapeOnItsSurfaceAndWithoutJumps) {

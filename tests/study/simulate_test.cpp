@@ -21,7 +21,7 @@ struct Scene {
 };
 
 Scene scene(std::string_view shape) {
-  spatial::Target target(make_shape(shape), {.allow_nonmanifold = true});
+  spatial::Target target(make_shape(shape));
   auto curves = intended_curves(shape, target);
   Similarity place{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY())), Vec3(0.1, 1.2, -0.4),
                    find_shape(shape)->metres_per_unit};

@@ -35,8 +35,7 @@ std::vector<StudyShape> study_shapes() {
   if (!std::filesystem::exists(folder / "targets.json")) return shapes;
   for (auto& info : io::read_targets(bytes(folder / "targets.json"), "targets.json").shapes) {
     spatial::Target target(
-        io::read_mesh(bytes(folder / (info.name + ".obj")), io::MeshFormat::obj, info.name),
-        {.allow_nonmanifold = true});
+        io::read_mesh(bytes(folder / (info.name + ".obj")), io::MeshFormat::obj, info.name));
     shapes.push_back({std::move(info), std::move(target)});
   }
   return shapes;

@@ -156,7 +156,7 @@ TEST(MimicryLive, HardTargetsGiveSoundPointsOfTheSameComponent) {
                                               make_cylinder(6),
                                               make_shape("plate")};
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const spatial::Target target(meshes[m], {.allow_nonmanifold = true});
+    const spatial::Target target(meshes[m]);
     const auto component = components(target);
     Random random(40 + m);
     for (const Options& options : {Options{}, soft()}) {

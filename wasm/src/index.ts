@@ -2,7 +2,7 @@ import factory from './core.js';
 import { meshArrays, meshReport, shapeList, withMesh, type MeshArrays, type MeshReport, type ShapeInfo } from './mesh.js';
 import { instantiate, MimicryError, type Module, type WasmSource } from './module.js';
 import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
-import { Target } from './target.js';
+import { Target, type TargetOptions } from './target.js';
 import { techniqueList, type TechniqueInfo } from './technique.js';
 
 export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
@@ -11,7 +11,7 @@ export type { MeshArrays, MeshReport, ShapeInfo } from './mesh.js';
 export { MimicryError, type Status, type WasmSource } from './module.js';
 export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, Session, type SessionOptions } from './session.js';
 export type { RecordedStroke } from './strokes.js';
-export { Target, type CurveFormat, type SurfaceHit } from './target.js';
+export { Target, type CurveFormat, type SurfaceHit, type TargetOptions } from './target.js';
 export type { TechniqueInfo, TechniqueOption } from './technique.js';
 
 export interface MimicryOptions {
@@ -70,8 +70,8 @@ export class Mimicry {
   }
 
   /** name: stands in messages and in files. */
-  createTarget(mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: { allowNonmanifold?: boolean } = {}): Target {
-    return Target.create(this.m, mesh, name, options.allowNonmanifold ?? false);
+  createTarget(mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: TargetOptions = {}): Target {
+    return Target.create(this.m, mesh, name, options);
   }
 
   /** The strokes of a mimicry-strokes file. */

@@ -1,7 +1,7 @@
 import { Curve } from './curve.js';
 import type { Pointer } from './exports.js';
 import { meshReport, withMesh, type MeshArrays, type MeshReport } from './mesh.js';
-import { check, Handle, made, takeBytes, type Module } from './module.js';
+import { check, Handle, made, takeBytes, textAt, type Module } from './module.js';
 import { Session, type SessionOptions } from './session.js';
 
 /** A point on a target, model space; one object that the target's next query writes over. */
@@ -22,7 +22,20 @@ const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb'];
 const kQueryBytes = 6 * 8;
 const kPointBytes = 11 * 8;
 
-/** A mesh ready to be drawn on. */
+export interface TargetOptions {
+  /** Join vertices at equal positions at seams (default true); otherwise curves stop there. */
+  join?: boolean;
+  /** Refuse a mesh with flaws rather than draw on what it is meant to be (default false). */
+  strict?: boolean;
+  /** Of no effect: every mesh can be drawn on. */
+  allowNonmanifold?: boolean;
+}
+
+/**
+ * A mesh ready to be drawn on. What is drawn on is the surface that the mesh is meant to be: seams
+ * are joined, places where sheets meet are split, doubled and collapsed faces left out, turned faces
+ * turned back (`notes`). Faces, barycentrics and vertices are given by the mesh's own numbers.
+ */
 export class Target extends Handle {
   private readonly room: Pointer;
   private readonly hit = { position: new Float64Array(3), normal: new Float64Array(3), barycentric: new Float64Array(3), distance: 0, face: -1 };
@@ -35,9 +48,10 @@ export class Target extends Handle {
   }
 
   /** @internal */
-  static create(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, allowNonmanifold: boolean): Target {
+  static create(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: TargetOptions): Target {
     return withMesh(m, mesh, name, (pointer) => {
-      const target = made(m, (_, out) => m._mimicry_target_create(pointer, allowNonmanifold ? 1 : 0, out));
+      const target = made(m, (args, out) =>
+        m._mimicry_target_make(pointer, args.put(Int32Array.of(options.join === false ? 0 : 1, options.strict ? 1 : 0)), out));
       return new Target(m, target, name, meshReport(m, pointer), mesh.positions.length / 3);
     });
   }
@@ -53,7 +67,25 @@ export class Target extends Handle {
   get faceCount(): number { return this.report.faces; }
   get hasEmbedding(): boolean { return this.m._mimicry_target_has_embedding(this.at) !== 0; }
 
-  /** Unit normals, 3 a vertex, for drawing the mesh. */
+  /** What was done to make the surface, a sentence each. */
+  get notes(): string[] {
+    const text = textAt(this.m, this.m._mimicry_target_notes(this.at));
+    return text === '' ? [] : text.split('\n');
+  }
+
+  /** For each vertex of the mesh one of the surface's, -1 where no face uses it. */
+  surfaceVertices(): Int32Array {
+    const at = this.m._mimicry_target_surface_vertices(this.at) >> 2;
+    return this.m.HEAP32.slice(at, at + this.vertexCount);
+  }
+
+  /** For each vertex of the surface the lowest of the mesh's vertices that it joins. */
+  surfaceSources(): Int32Array {
+    const at = this.m._mimicry_target_surface_sources(this.at) >> 2;
+    return this.m.HEAP32.slice(at, at + this.m._mimicry_target_surface_vertex_count(this.at));
+  }
+
+  /** Unit normals, 3 a vertex, for drawing the mesh; 0 where no face uses one. */
   vertexNormals(): Float32Array {
     const at = this.m._mimicry_target_vertex_normals(this.at) >> 3;
     return Float32Array.from(this.m.HEAPF64.subarray(at, at + 3 * this.vertexCount));

@@ -88,7 +88,7 @@ export class Studio {
 
   /** Shows another model; the drawing begins anew. Throws where it cannot be drawn on: all stays as it was. */
   open(model: LoadedModel): void {
-    const target = this.core.createTarget(model.mesh, model.name, { allowNonmanifold: true });
+    const target = this.core.createTarget(model.mesh, model.name);
     this.endStroke();
     this.forgetAll();
     this.target?.dispose();
@@ -101,7 +101,7 @@ export class Studio {
     this.view.place(place);
     this.state.update({
       history: kEmptyHistory, hasEmbedding: false, modelToWorld: place,
-      model: { name: model.name, source: model.source, faces: model.mesh.faces.length / 3, remarks: model.remarks },
+      model: { name: model.name, source: model.source, faces: model.mesh.faces.length / 3, remarks: [...model.remarks, ...target.notes] },
     });
     if (this.technique(this.settings.technique).needsBake) this.set({ technique: kDefaults.technique });
   }

@@ -12,16 +12,17 @@ using embedding::Embedding;
 
 /// Raised whenever the same mesh and options give another embedding than before: kept bakes of an
 /// earlier revision are made again.
-inline constexpr int kRevision = 3;
+inline constexpr int kRevision = 4;
 
 /// Bakes a target for smooth closest points (Panozzo, Baran, Diamanti, Sorkine-Hornung, Weighted
 /// Averages on Surfaces, 2013, section 4; Arora and Singh 2021, 3.2): a shell of tetrahedra around
 /// it, samples and their geodesic distances, their embedding by multidimensional scaling, and the
 /// other vertices by a least-squares mesh.
 ///
-/// Any mesh with some area is baked: boundaries, several components, thin or doubled sheets,
-/// needles, self-intersections, non-manifold edges. `quality` says what came of it; where the mesh
-/// cannot be made to stand in the shell's tetrahedra the shell is a lattice. Throws
+/// What is baked is the surface that `connect` makes of the mesh, the same that a `Target` of it
+/// stands on. Any mesh with some area is baked: boundaries, several components, thin or doubled
+/// sheets, needles, self-intersections, non-manifold edges. `quality` says what came of it; where
+/// the mesh cannot be made to stand in the shell's tetrahedra the shell is a lattice. Throws
 /// Error(invalid_input) for a mesh without area or with vertices that are not finite and for
 /// options out of range (dimension 3 .. 64, samples 10 .. 20,000, offset 1e-3 .. 0.5, or so small
 /// that the shell takes more than 400,000 cells and more than 8 a face),

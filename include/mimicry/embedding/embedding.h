@@ -71,7 +71,7 @@ struct Embedding {
   Index face_count() const { return static_cast<Index>(faces.size()); }
 };
 
-/// The mesh that was baked. Throws Error(invalid_input) where a face refers to a vertex that the
+/// The surface that was baked. Throws Error(invalid_input) where a face refers to a vertex that the
 /// mesh does not have.
 TriangleMesh mesh_of(const Embedding& embedding);
 

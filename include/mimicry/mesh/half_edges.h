@@ -14,7 +14,8 @@ class HalfEdges {
  public:
   HalfEdges() = default;
   /// O(#F log #F). Never throws on odd topology: an edge with three or more faces, or with two
-  /// faces that run along it in the same direction, gets no twins and counts as non-manifold.
+  /// faces that run along it in the same direction, gets no twins and counts as non-manifold. A
+  /// face that names a vertex twice has no twins and counts nowhere.
   explicit HalfEdges(const TriangleMesh& mesh);
 
   static constexpr Index kNonManifold = -2;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <mimicry/base/types.h>
@@ -10,6 +12,13 @@
 namespace mimicry {
 
 using Face = std::array<Index, 3>;
+
+/// Such a face has no area and no neighbours: it keeps its number and is no part of the surface.
+constexpr bool repeats_corner(const Face& f) {
+  return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+}
+
+struct MeshSource;
 
 /// A triangle mesh as flat arrays; immutable once it is made. It says nothing of topology
 /// (`HalfEdges`) nor of quality (`validate`), so that any file's content can be held and reported.
@@ -41,6 +50,17 @@ class TriangleMesh {
     return polygons_.empty() ? f : polygons_[static_cast<std::size_t>(f)];
   }
 
+  /// What `connect` made this surface of; null where vertices and faces are the caller's own.
+  const MeshSource* source() const { return source_.get(); }
+  void set_source(std::shared_ptr<const MeshSource> source) { source_ = std::move(source); }
+  /// `connect` made it, or found it sound, and leaves it as it is: what lies at one place and was
+  /// kept apart is not joined by a second look.
+  bool is_connected() const { return is_connected_; }
+  void mark_connected() { is_connected_ = true; }
+
+  /// The source held other polygons than triangles.
+  bool has_polygons() const { return !polygons_.empty(); }
+
   Vec3 position(const SurfacePoint& p) const {
     return p.bary[0] * corner(p.face, 0) + p.bary[1] * corner(p.face, 1) +
            p.bary[2] * corner(p.face, 2);
@@ -65,14 +85,16 @@ class TriangleMesh {
   std::vector<Vec3> positions_;
   std::vector<Face> faces_;
   std::vector<Index> polygons_;
+  std::shared_ptr<const MeshSource> source_;
+  bool is_connected_ = false;
 };
 
-/// Smallest box with all referenced and unreferenced vertices; empty (min > max) without vertices.
-/// Vertices that are not finite are passed over.
+/// Smallest box with the vertices that faces use; empty (min > max) without any. Vertices that are
+/// not finite are passed over. O(#V + #F).
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh);
 
 /// Length of the bounding box's diagonal, the size that relative tolerances refer to; 0 without
-/// vertices.
+/// faces.
 double diagonal(const TriangleMesh& mesh);
 
 }  // namespace mimicry

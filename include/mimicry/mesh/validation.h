@@ -60,8 +60,8 @@ struct MeshReport {
   /// (Vertices with faces) - edges + faces.
   Index euler = 0;
 
-  /// Not finite, or with a coordinate beyond 1e100 (areas and volumes would overflow). Faces at
-  /// such vertices are left out of all measures below.
+  /// Used by a face and not finite, or with a coordinate beyond 1e100 (areas and volumes would
+  /// overflow). Faces at such vertices are left out of all measures below.
   VertexFinding invalid_vertices;
   VertexFinding isolated_vertices;  ///< that no face names
   /// Edges with three or more faces.
@@ -81,7 +81,7 @@ struct MeshReport {
   /// Sum over the components; where all of them have one.
   std::optional<Index> genus;
 
-  Eigen::AlignedBox3d box;  ///< of all valid vertices; empty without one
+  Eigen::AlignedBox3d box;  ///< of all valid vertices that faces use; empty without one
   double diagonal = 0;
   double area = 0;
   /// Enclosed, positive where faces run counter-clockwise seen from outside; where the mesh is
@@ -91,10 +91,10 @@ struct MeshReport {
   double mean_edge = 0;
   double longest_edge = 0;
 
-  /// Ready for every technique: the same as HalfEdges::is_manifold().
+  /// The same as HalfEdges::is_manifold().
   bool is_manifold() const {
     return nonmanifold_edges.count == 0 && nonmanifold_vertices.count == 0 &&
-           inconsistent_edges.count == 0 && repeated_corners.count == 0;
+           inconsistent_edges.count == 0;
   }
   /// Manifold with at least one face and no boundary.
   bool is_closed() const { return is_manifold() && edges > 0 && boundary.edges.count == 0; }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/triangle_mesh.h>
@@ -27,24 +28,28 @@ struct RayHit {
 };
 
 struct TargetOptions {
-  bool allow_nonmanifold = false;  ///< closest points and rays do not need neighbours
+  bool join = true;     ///< vertices at equal positions at seams (ConnectOptions)
+  bool strict = false;  ///< refuse what `connect` would mend, rather than mend it
 };
 
-/// A mesh ready to be drawn on: mesh, neighbours, vertex normals, hierarchy. Meshes with boundary
-/// and with several components are welcome. Queries are const, safe from many threads, allocate
-/// nothing (but `all_hits`, when its vector must grow), and give the same bits every time; equal
-/// distances go to the lower face number.
+/// A mesh ready to be drawn on: the surface that `connect` makes of it, neighbours, vertex normals,
+/// hierarchy. Meshes with boundary and with several components are welcome. Queries are const, safe
+/// from many threads, allocate nothing (but `all_hits`, when its vector must grow), and give the
+/// same bits every time; equal distances go to the lower face number.
 ///
 /// A face without area (height below 1e-14 of its longest side) is never the closest; a ray meets
 /// it only where leaving it out would open a slit.
 class Target {
  public:
   /// Throws Error(invalid_input), with the count and the first example, where the mesh has no
-  /// faces, a vertex that is not finite, a size or place outside 1e-30 .. 1e30, no face with area,
-  /// or (unless allowed) a non-manifold edge or vertex. O(#F log #F).
+  /// faces, a vertex of a face that is not finite, a size or place outside 1e-30 .. 1e30, no face
+  /// with area, or (where `strict`) a flaw that `connect` mends. O(#F log #F).
   explicit Target(TriangleMesh mesh, const TargetOptions& options = {});
 
+  /// The surface: the caller's positions and face numbers; `mesh().source()` maps its vertices.
   const TriangleMesh& mesh() const { return mesh_; }
+  /// What was joined, split, turned and left out to make it.
+  const ConnectReport& connection() const { return connection_; }
   const HalfEdges& half_edges() const { return half_edges_; }
   /// #V unit normals, weighted by angle.
   std::span<const Vec3> vertex_normals() const { return normals_; }
@@ -73,9 +78,9 @@ class Target {
   /// Unit normal, interpolated between the vertices.
   Vec3 normal(const SurfacePoint& p) const { return interpolated_normal(mesh_, normals_, p); }
 
-  /// Moves the vertices (#V): refits the hierarchy, the normals and the boxes, allocates nothing.
-  /// Throws, and changes nothing, where the count differs or the constructor would refuse the
-  /// positions. O(#F).
+  /// Moves the vertices (#V of the caller's mesh): refits the hierarchy, the normals and the boxes,
+  /// allocates nothing. Throws, and changes nothing, where the count differs or the constructor
+  /// would refuse the positions. O(#F).
   void update_positions(std::span<const Vec3> positions);
 
   /// Heap memory held.
@@ -83,6 +88,8 @@ class Target {
 
  private:
   TriangleMesh mesh_;
+  ConnectReport connection_;
+  std::vector<Vec3> moved_;  // #V, room for update_positions; empty where vertices are the caller's
   HalfEdges half_edges_;
   std::vector<Vec3> normals_;
   std::vector<Vec3> visible_normals_;

@@ -44,8 +44,7 @@ DrawnStrokes::Shape& DrawnStrokes::shape(const std::string& name) {
   Shape& entry = shapes_[name];
   if (!entry.target)
     entry.target = std::make_unique<spatial::Target>(make_target(
-        load_mesh(sources_.mesh.empty() ? mesh_spec(sources_.shapes, name) : sources_.mesh),
-        false));
+        load_mesh(sources_.mesh.empty() ? mesh_spec(sources_.shapes, name) : sources_.mesh)));
   return entry;
 }
 

@@ -25,8 +25,6 @@ export function shapeModel(core: Core, shape: string): LoadedModel {
 
 function remarks(report: MeshReport): string[] {
   const list: string[] = [];
-  if (report.nonmanifoldEdges > 0) list.push(`${count(report.nonmanifoldEdges, 'edge has', 'edges have')} three or more faces: ink does not cross them.`);
-  if (report.inconsistentEdges > 0) list.push(`At ${count(report.inconsistentEdges, 'edge', 'edges')} the faces look different ways.`);
   if (report.degenerateFaces > 0) list.push(`${count(report.degenerateFaces, 'face has', 'faces have')} no area.`);
   if (report.components > 1) list.push(`${report.components.toLocaleString('en')} separate parts: ink stays on the part that it starts on.`);
   return list;

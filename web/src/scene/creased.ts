@@ -1,3 +1,5 @@
+import { equalPlaces } from './places';
+
 /** What is shown of a mesh: three corners a face, each with its own normal. */
 export interface Corners {
   positions: Float32Array; // 9 F
@@ -6,7 +8,7 @@ export interface Corners {
 
 /**
  * Corner normals that are smooth within a surface and broken at its sharp edges: the mean, weighted
- * by angle, of the faces around the vertex that lie within `crease_rad` of the corner's own face.
+ * by angle, of the faces around the vertex (and those at its position) that lie within `crease_rad` of the corner's own face.
  * O(faces around the vertices, squared).
  */
 export function creasedCorners(positions: Float64Array, faces: Int32Array, crease_rad: number): Corners {
@@ -35,14 +37,15 @@ export function creasedCorners(positions: Float64Array, faces: Int32Array, creas
     normals[3 * f] = x / n; normals[3 * f + 1] = y / n; normals[3 * f + 2] = z / n;
   }
 
-  // Corners by vertex.
+  // Corners by place.
+  const place = equalPlaces(positions);
   const first = new Uint32Array(positions.length / 3 + 1);
-  for (const v of faces) first[v + 1]! += 1;
+  for (const v of faces) first[place[v]! + 1]! += 1;
   for (let v = 1; v < first.length; v += 1) first[v]! += first[v - 1]!;
   const next = first.slice();
   const corners = new Uint32Array(faces.length);
   for (let c = 0; c < faces.length; c += 1) {
-    const v = faces[c]!;
+    const v = place[faces[c]!]!;
     corners[next[v]!] = c;
     next[v]! += 1;
   }
@@ -50,7 +53,7 @@ export function creasedCorners(positions: Float64Array, faces: Int32Array, creas
   const threshold = Math.cos(crease_rad);
   const out: Corners = { positions: new Float32Array(3 * faces.length), normals: new Float32Array(3 * faces.length) };
   for (let c = 0; c < faces.length; c += 1) {
-    const v = faces[c]!, own = 3 * Math.floor(c / 3);
+    const v = place[faces[c]!]!, own = 3 * Math.floor(c / 3);
     let x = 0, y = 0, z = 0;
     for (let i = first[v]!; i < first[v + 1]!; i += 1) {
       const other = 3 * Math.floor(corners[i]! / 3);
