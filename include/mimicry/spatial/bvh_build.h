@@ -315,6 +315,8 @@ void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
   Box all;
   for (Index i = 0; i < count_; ++i) all.extend(primitive(i).box());
   set_frame(all);
+  // A hierarchy of one leaf has no node.
+  for (Leaf& leaf : leaves_) set_pack(leaf, primitive);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
     for (int lane = 0; lane < kWidth; ++lane) {
@@ -332,8 +334,7 @@ void Bvh<Dim, PrimitiveType>::refit(Get&& primitive) {
           box[k + Dim] = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]));
         }
       } else if (child != kUnused) {
-        Leaf& changed = leaves_[~static_cast<std::uint32_t>(child) >> 3];
-        set_pack(changed, primitive);
+        const Leaf& changed = leaves_[~static_cast<std::uint32_t>(child) >> 3];
         Box bounds;
         for (const Index i : changed.numbers) bounds.extend(primitive(i).box());
         box = float_box(bounds);
