@@ -34,6 +34,8 @@ foreach(target IN LISTS targets)
     set(link_line "-l${target} ${link_line}")
   endif()
 endforeach()
+get_property(needs GLOBAL PROPERTY MIMICRY_INSTALLED_NEEDS)
+list(JOIN needs " " needs)
 file(WRITE "${PROJECT_BINARY_DIR}/mimicry.pc"
 "prefix=\${pcfiledir}/../..
 libdir=\${pcfiledir}/..
@@ -44,7 +46,7 @@ Description: ${PROJECT_DESCRIPTION}
 Version: ${PROJECT_VERSION}
 Requires: eigen3
 Cflags: -I\${includedir} -DEIGEN_MPL2_ONLY
-Libs: -L\${libdir} ${link_line}-pthread
+Libs: -L\${libdir} ${link_line}${needs} -pthread
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/mimicry-c.pc"
 "prefix=\${pcfiledir}/../..

@@ -39,8 +39,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   TriangleMesh mesh;
   try {
     // glTF may use one mesh many times: small limits keep each run short.
-    mesh = mimicry::io::read_mesh(bytes, MeshFormat::MIMICRY_FUZZ_FORMAT, "input",
-                                  {.max_vertices = 100'000, .max_faces = 100'000});
+    mesh = mimicry::io::read_mesh(
+        bytes, MeshFormat::MIMICRY_FUZZ_FORMAT, "input",
+        {.max_vertices = 100'000, .max_faces = 100'000, .max_unfolded = 100'000});
   } catch (const mimicry::Error&) {
     return 0;
   }

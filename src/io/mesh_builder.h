@@ -17,6 +17,7 @@ class MeshBuilder {
       : name_(name), options_(options) {}
 
   std::string_view name() const { return name_; }
+  const MeshReadOptions& options() const { return options_; }
   std::size_t vertex_count() const { return positions_.size(); }
   std::size_t polygon_count() const { return polygon_count_; }
 
@@ -50,7 +51,7 @@ void read_obj(std::string_view bytes, MeshBuilder& mesh);
 void read_ply(std::string_view bytes, MeshBuilder& mesh);
 void read_stl(std::string_view bytes, MeshBuilder& mesh);
 void read_off(std::string_view bytes, MeshBuilder& mesh);
-void read_glb(std::string_view bytes, MeshBuilder& mesh);
+/// GLB or glTF, whichever the bytes are.
 void read_gltf(std::string_view bytes, MeshBuilder& mesh);
 
 }  // namespace mimicry::io

@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/float_traps.h>
@@ -9,20 +10,33 @@
 
 namespace mimicry::io {
 
-MeshFormat mesh_format_of(std::string_view file_name) {
+namespace {
+
+constexpr std::pair<std::string_view, MeshFormat> kEndings[] = {
+    {"obj", MeshFormat::obj}, {"ply", MeshFormat::ply}, {"stl", MeshFormat::stl},
+    {"off", MeshFormat::off}, {"glb", MeshFormat::glb}, {"gltf", MeshFormat::gltf}};
+
+std::optional<MeshFormat> format_of(std::string_view file_name) {
   const std::size_t dot = file_name.rfind('.');
-  const std::string ending =
-      dot == std::string_view::npos ? std::string() : to_lower(file_name.substr(dot + 1));
-  if (ending == "obj") return MeshFormat::obj;
-  if (ending == "ply") return MeshFormat::ply;
-  if (ending == "stl") return MeshFormat::stl;
-  if (ending == "off") return MeshFormat::off;
-  if (ending == "glb") return MeshFormat::glb;
-  if (ending == "gltf") return MeshFormat::gltf;
+  if (dot == std::string_view::npos) return std::nullopt;
+  const std::string ending = to_lower(file_name.substr(dot + 1));
+  for (const auto& [name, format] : kEndings)
+    if (ending == name) return format;
+  return std::nullopt;
+}
+
+}  // namespace
+
+MeshFormat mesh_format_of(std::string_view file_name) {
+  if (const auto format = format_of(file_name)) return *format;
   throw Error(ErrorKind::unsupported,
               std::string(file_name) +
                   ": the name does not end in a mesh format's; use .obj, .ply, .stl, .off, .glb or "
                   ".gltf");
+}
+
+bool is_mesh_name(std::string_view file_name) {
+  return format_of(file_name).has_value();
 }
 
 TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
@@ -47,8 +61,6 @@ TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_vi
       read_off(bytes, mesh);
       break;
     case MeshFormat::glb:
-      read_glb(bytes, mesh);
-      break;
     case MeshFormat::gltf:
       read_gltf(bytes, mesh);
       break;

@@ -16,11 +16,15 @@ struct MeshReadOptions {
   // Limits beyond which a file is refused before its content is held in memory.
   std::size_t max_vertices = 100'000'000;
   std::size_t max_faces = 200'000'000;
+  /// What a glTF may unfold to by using meshes again and again: triangles and vertices, or 16 a byte
+  /// of what was read where that is more. A file whose triangles are all its own has fewer than that;
+  /// ten million take about half a gigabyte.
+  std::size_t max_unfolded = 10'000'000;
   /// Is told, a sentence each, what was passed over or mended; may be empty.
-  std::function<void(const std::string& sentence)> note;
+  std::function<void(const std::string& sentence)> note = {};
   /// The content of a file that the mesh names beside it (the buffers of a glTF), by its decoded
   /// name relative to the mesh's folder; nullopt where there is none. Empty: nothing is beside it.
-  std::function<std::optional<std::string>(const std::string& name)> companion;
+  std::function<std::optional<std::string>(const std::string& name)> companion = {};
 };
 
 /// The mesh that a file's bytes hold. `name` stands in the error messages only.
@@ -31,18 +35,19 @@ struct MeshReadOptions {
 ///   coordinates, which are passed over): vertices and faces in file order, unused vertices kept.
 /// - STL (text, binary): corners at the same position become one vertex, numbered in the order of
 ///   first appearance. -0 and 0 are the same position.
-/// - GLB, glTF 2.0 (buffers embedded): all triangles, strips and fans of the default scene, node
-///   transforms applied, nodes depth first. glTF splits a vertex wherever its normal, texture
-///   coordinate or material changes, which would open a closed surface along such seams: vertices
-///   at the same position become one, as with STL. Triangles of a strip that repeat a vertex are
-///   left out, they only join strips.
+/// - GLB, glTF 2.0: all triangles, strips and fans of the default scene, nodes depth first, with
+///   what moves them (docs/formats.md, "glTF"). Vertices stand in the order of the primitives, at
+///   seams as often as the file has them; primitives of one mesh that name the same accessors share
+///   them. Triangles of a strip that repeat a vertex are left out, they only join strips. The name's
+///   ending does not tell GLB and glTF apart, the first bytes do.
 ///
 /// The content is not judged (`nan` and `inf` are read as such, degenerate faces are kept):
 /// validation reports it. Throws Error(invalid_input) with name, line or byte offset where the
 /// file is cut short, not of its format, refers to a vertex that does not exist, or holds no
-/// triangle; Error(unsupported) where it needs what is not handled (external buffers, compressed
-/// glTF, more than the limits). Memory and time are O(size of the file), whatever its header
-/// claims, except for glTF that uses one mesh in several nodes: O(triangles).
+/// triangle; Error(io) where a file that it needs is not beside it; Error(unsupported) where it needs
+/// what is not handled (unknown extensions, decoders that this build lacks, more than the limits).
+/// Memory and time are O(size of the file), whatever its header claims; of glTF that uses meshes
+/// again and again O(triangles), within `max_unfolded`.
 TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
                        const MeshReadOptions& options = {});
 
