@@ -3,10 +3,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
 #include <mimicry/base/error.h>
+#include <mimicry/files/beside.h>
 #include <mimicry/files/file.h>
 #include <mimicry/io/mesh_reader.h>
 #include <mimicry/io/number.h>
@@ -38,6 +40,24 @@ NamedMesh load_shape(const std::string& spec) {
   return {name, std::move(mesh), find_shape(name)->metres_per_unit};
 }
 
+io::MeshReadOptions read_options(const std::string& path, const std::string& name) {
+  io::MeshReadOptions options;
+  options.companion = [path](const std::string& beside) {
+    return files::read_beside(path, beside);
+  };
+  options.note = [name](const std::string& sentence) {
+    std::fprintf(stderr, "mimicry: %s: %s\n", name.c_str(), sentence.c_str());
+  };
+  if (const char* text = std::getenv("MIMICRY_MAX_UNFOLDED")) {
+    const auto limit = io::parse_double(text);
+    if (!limit || !(*limit >= 0.0 && *limit < 1e15))
+      throw Error(ErrorKind::invalid_input,
+                  std::string("MIMICRY_MAX_UNFOLDED: '") + text + "' is not a number of triangles");
+    options.max_unfolded = static_cast<std::size_t>(*limit);
+  }
+  return options;
+}
+
 }  // namespace
 
 CLI::Validator number_between(double lowest, double highest) {
@@ -54,14 +74,10 @@ CLI::Validator number_between(double lowest, double highest) {
 NamedMesh load_mesh(const std::string& spec) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);
   const std::string name = std::filesystem::path(spec).filename().string();
-  io::MeshReadOptions reading;
-  reading.note = [&name](const std::string& sentence) {
-    std::fprintf(stderr, "mimicry: %s: %s\n", name.c_str(), sentence.c_str());
-  };
-  TriangleMesh mesh =
-      is_embedding_file(spec)
-          ? mesh_of(load_embedding(spec))
-          : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name, reading);
+  TriangleMesh mesh = is_embedding_file(spec)
+                          ? mesh_of(load_embedding(spec))
+                          : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name,
+                                          read_options(spec, name));
   const double size = diagonal(mesh);
   return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
 }

@@ -53,6 +53,30 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
         self.assertGreater(struct.unpack(">II", head[16:])[0], 240)
 
+    def test_gltf_with_its_buffer_in_another_file(self):
+        def gltf(name, uri):
+            return self.write(name, json.dumps({
+                "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "accessors": [{"bufferView": 0, "count": 3, "componentType": 5126, "type": "VEC3"}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "buffers": [{"uri": uri, "byteLength": 36}], "images": [{"uri": "missing.png"}],
+                "extensionsRequired": ["KHR_materials_unlit"]}))
+
+        os.mkdir(self.path("model"))
+        for name in ("model/corner 1.bin", "secret.bin"):
+            with open(self.path(name), "wb") as file:
+                file.write(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 2, 0))
+        done = run("info", gltf("model/corner.gltf", "corner%201.bin"), "--json")
+        report = json.loads(done.stdout)
+        self.assertEqual((report["vertices"], report["faces"], report["area"]), (3, 1, 1))
+        self.assertIn("corner.gltf: the extension 'KHR_materials_unlit'", done.stderr)
+        self.assertIn("'no.bin'", run("info", gltf("model/none.gltf", "no.bin"), expect=4).stderr)
+        self.assertIn("'../secret.bin'",
+                      run("info", gltf("model/out.gltf", "../secret.bin"), expect=3).stderr)
+        os.symlink("../secret.bin", self.path("model/link.bin"))
+        self.assertIn("link.bin", run("info", gltf("model/link.gltf", "link.bin"), expect=3).stderr)
+
     def test_same_input_gives_the_same_files(self):
         for out in ("a", "b"):
             run("simulate", "shape:torus:24", "--seed", "7", "--out", self.path(out + ".json"))

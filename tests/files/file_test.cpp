@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
+#include <mimicry/files/beside.h>
 #include <mimicry/files/file.h>
 
 namespace mimicry::files {
@@ -88,6 +89,34 @@ TEST_F(FileTest, PartOfAnotherWriterIsNotTouched) {
   write_file_atomically(path("a"), "ours");
   EXPECT_EQ(read_file(path("a.part0")), "another's");
   EXPECT_EQ(read_file(path("a")), "ours");
+}
+
+TEST_F(FileTest, FilesBesideAnotherAreReadAndNoneOutsideOfItsFolder) {
+  fs::create_directories(folder_ / "model" / "parts");
+  const auto write = [&](const char* name) { write_file_atomically(path(name), name); };
+  for (const char* name : {"model/a.gltf", "model/a.bin", "model/parts/b.bin", "secret"})
+    write(name);
+  fs::create_symlink("parts/b.bin", folder_ / "model" / "inside");
+  fs::create_symlink("../secret", folder_ / "model" / "outside");
+  fs::create_directory_symlink("..", folder_ / "model" / "up");
+  ASSERT_EQ(::mkfifo(path("model/pipe").c_str(), 0600), 0);
+  const std::string mesh = path("model/a.gltf");
+  EXPECT_EQ(read_beside(mesh, "a.bin"), "model/a.bin");
+  EXPECT_EQ(read_beside(mesh, "parts/b.bin"), "model/parts/b.bin");
+  EXPECT_EQ(read_beside(mesh, "inside"), "model/parts/b.bin");
+  EXPECT_EQ(read_beside(mesh, "none.bin"), std::nullopt);
+  EXPECT_EQ(read_beside(mesh, "a.bin/c"), std::nullopt);
+  const auto kind = [&](const char* name) {
+    try {
+      read_beside(mesh, name);
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::invalid_input;
+  };
+  for (const char* name : {"../secret", "/etc/passwd", "outside", "up/secret", "..", "up"})
+    EXPECT_EQ(kind(name), ErrorKind::unsupported) << name;
+  for (const char* name : {"pipe", "parts", "."}) EXPECT_EQ(kind(name), ErrorKind::io) << name;
 }
 
 }  // namespace
