@@ -72,6 +72,19 @@ MIMICRY_API mimicry_status mimicry_mesh_create(const double* positions, size_t v
  * stands in messages. */
 MIMICRY_API mimicry_status mimicry_mesh_read(const void* data, size_t size, const char* name,
                                              mimicry_mesh** out);
+
+/* A file that is held in memory. The name may begin with folders, "model/cube.gltf". */
+typedef struct mimicry_file {
+  const char* name;
+  const void* data;
+  size_t size;
+} mimicry_file;
+
+/* A mesh with the files that it names: a glTF and its buffers. They are found by their place
+ * relative to the mesh, else by their name alone; others (textures) may be among them. mesh: the
+ * mesh's name among the files, or NULL where it is the only mesh. */
+MIMICRY_API mimicry_status mimicry_mesh_read_files(const mimicry_file* files, size_t count,
+                                                   const char* mesh, mimicry_mesh** out);
 /* A built-in shape. resolution: 0 for its default. */
 MIMICRY_API mimicry_status mimicry_mesh_shape(const char* name, int32_t resolution,
                                               mimicry_mesh** out);

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/mesh_files.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/mesh/validation.h>
@@ -63,6 +63,18 @@ mimicry_status mimicry_mesh_read(const void* data, size_t size, const char* name
     const std::string_view named = text(name, "name");
     return shown(std::string(named),
                  io::read_mesh(content(data, size), io::mesh_format_of(named), named));
+  });
+}
+
+mimicry_status mimicry_mesh_read_files(const mimicry_file* files, size_t count, const char* mesh,
+                                       mimicry_mesh** out) {
+  return made(out, [&] {
+    if (count > 0) require(files, "files");
+    std::vector<io::NamedBytes> named;
+    for (size_t k = 0; k < count; ++k)
+      named.push_back({text(files[k].name, "name"), content(files[k].data, files[k].size)});
+    const size_t which = io::mesh_among(named, mesh ? mesh : "");
+    return shown(std::string(named[which].name), io::read_mesh_files(named, which));
   });
 }
 

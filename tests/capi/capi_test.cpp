@@ -346,6 +346,38 @@ TEST(CApi, TargetsStandOnTheSurfaceAndSpeakOfTheMesh) {
   EXPECT_THAT(mimicry_target_notes(open.get()), HasSubstr("1 seam edge is not joined"));
 }
 
+TEST(CApi, AMeshOfSeveralFiles) {
+  const char gltf[] =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
+      R"({"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"count":3,)"
+      R"("componentType":5126,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("buffers":[{"byteLength":36,"uri":"corner.bin"}],"images":[{"uri":"wood.png"}]})";
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const mimicry_file files[] = {{"a/corner.bin", "no triangle", 11},
+                                {"b/corner.bin", positions, sizeof positions},
+                                {"b/corner.gltf", gltf, sizeof gltf - 1},
+                                {"b/wood.png", nullptr, 0},
+                                {"other.obj", "v", 1}};
+  const auto mesh = make<Mesh>(mimicry_mesh_read_files, files, std::size_t{5}, "b/corner.gltf");
+  EXPECT_EQ(mimicry_mesh_face_count(mesh.get()), 1u);
+  EXPECT_EQ(mimicry_mesh_positions(mesh.get())[3], 1.0);
+  mimicry_mesh* none = nullptr;
+  EXPECT_EQ(mimicry_mesh_read_files(files, 5, nullptr, &none), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("b/corner.gltf and other.obj"));
+  EXPECT_EQ(mimicry_mesh_read_files(files, 4, "c.gltf", &none), MIMICRY_INVALID_INPUT);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("c.gltf: is not among the files"));
+  EXPECT_EQ(mimicry_mesh_read_files(files, 2, nullptr, &none), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(mimicry_mesh_read_files(files + 2, 2, nullptr, &none), MIMICRY_IO);
+  EXPECT_THAT(mimicry_last_error(), HasSubstr("corner.bin"));
+  EXPECT_EQ(mimicry_mesh_read_files(nullptr, 1, nullptr, &none), MIMICRY_INVALID_INPUT);
+  // Without folders, as a browser drops them.
+  const mimicry_file flat[] = {{"corner.gltf", gltf, sizeof gltf - 1},
+                               {"x/corner.bin", positions, sizeof positions}};
+  EXPECT_EQ(mimicry_mesh_face_count(
+                make<Mesh>(mimicry_mesh_read_files, flat, std::size_t{2}, nullptr).get()),
+            1u);
+}
+
 TEST(CApi, BadInputIsAStatusAndASentence) {
   mimicry_mesh* mesh = nullptr;
   EXPECT_EQ(mimicry_mesh_read("hello", 5, "notes.txt", &mesh), MIMICRY_UNSUPPORTED);

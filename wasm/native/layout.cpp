@@ -4,6 +4,7 @@
 #include <mimicry/mimicry.h>
 
 static_assert(sizeof(void*) == 4 && sizeof(mimicry_status) == 4);
+static_assert(offsetof(mimicry_file, size) == 8 && sizeof(mimicry_file) == 12);
 static_assert(offsetof(mimicry_mesh_report, vertices) == 72 && sizeof(mimicry_mesh_report) == 128);
 static_assert(sizeof(mimicry_shape_info) == 20);
 static_assert(offsetof(mimicry_surface_point, face) == 80 && sizeof(mimicry_surface_point) == 88);

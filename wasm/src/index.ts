@@ -1,5 +1,5 @@
 import factory from './core.js';
-import { meshArrays, meshReport, shapeList, withMesh, type MeshArrays, type MeshReport, type ShapeInfo } from './mesh.js';
+import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshReport, type ShapeInfo } from './mesh.js';
 import { instantiate, MimicryError, type Module, type WasmSource } from './module.js';
 import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
 import { Target, type TargetOptions } from './target.js';
@@ -7,7 +7,7 @@ import { techniqueList, type TechniqueInfo } from './technique.js';
 
 export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
 export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
-export type { MeshArrays, MeshReport, ShapeInfo } from './mesh.js';
+export type { MeshArrays, MeshFile, MeshReport, ShapeInfo } from './mesh.js';
 export { MimicryError, type Status, type WasmSource } from './module.js';
 export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, Session, type SessionOptions } from './session.js';
 export type { RecordedStroke } from './strokes.js';
@@ -62,6 +62,16 @@ export class Mimicry {
   readMesh(bytes: Uint8Array, name: string): MeshArrays {
     const m = this.m;
     return meshArrays(m, (args, out) => m._mimicry_mesh_read(args.put(bytes), bytes.length, args.put(name), out));
+  }
+
+  /**
+   * A mesh with the files that it names beside it: a glTF and its buffers. Others (textures) may be among
+   * them. mesh: its name among the files, where more than one is a mesh.
+   */
+  readMeshFiles(files: readonly MeshFile[], mesh?: string): MeshArrays {
+    const m = this.m;
+    return meshArrays(m, (args, out) =>
+      m._mimicry_mesh_read_files(putFiles(m, args, files), files.length, mesh === undefined ? 0 : args.put(mesh), out));
   }
 
   /** What a mesh is and what is odd about it. */

@@ -56,6 +56,22 @@ export function shapeList(m: Module): ShapeInfo[] {
   });
 }
 
+/** A file's content; the name may begin with folders. */
+export interface MeshFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+const kFileWords = 3; // name, data, size
+
+/** An array of mimicry_file. */
+export function putFiles(m: Module, args: Arguments, files: readonly MeshFile[]): Pointer {
+  const held = files.map(({ name, bytes }) => [args.put(name), args.put(bytes), bytes.length]);
+  const at = args.room(4 * kFileWords * files.length);
+  m.HEAPU32.set(held.flat(), at >> 2);
+  return at;
+}
+
 /** The mesh that a call makes, as arrays. */
 export function meshArrays(m: Module, call: (args: Arguments, out: Pointer) => number): MeshArrays {
   const mesh = made(m, call);

@@ -47,6 +47,27 @@ test('reads meshes and says what they are', () => {
   assert.ok(Number.isNaN(report.volume));
 });
 
+test('reads a glTF with the file of its buffer', () => {
+  const gltf = JSON.stringify({
+    asset: { version: '2.0' },
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+    accessors: [{ bufferView: 0, count: 3, componentType: 5126, type: 'VEC3' }],
+    bufferViews: [{ buffer: 0, byteLength: 36 }],
+    buffers: [{ uri: 'data/corner%201.bin', byteLength: 36 }],
+    images: [{ uri: 'wood.png' }],
+  });
+  const bin = { name: 'corner 1.bin', bytes: new Uint8Array(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer) };
+  const wood = { name: 'wood.png', bytes: bytesOf('not looked at') };
+  const mesh = mimicry.readMeshFiles([wood, bin, { name: 'corner.gltf', bytes: bytesOf(gltf) }]);
+  assert.deepEqual([...mesh.positions], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  assert.throws(() => mimicry.readMesh(bytesOf(gltf), 'corner.gltf'), (e) => e.status === 'io' && /corner\.gltf.*corner 1\.bin/.test(e.message));
+  assert.throws(() => mimicry.readMeshFiles([wood, bin]), /no mesh among the files/);
+  const two = [bin, { name: 'a.gltf', bytes: bytesOf(gltf) }, { name: 'b.gltf', bytes: bytesOf(gltf) }];
+  assert.throws(() => mimicry.readMeshFiles(two), /a\.gltf and b\.gltf/);
+  assert.equal(mimicry.readMeshFiles(two, 'b.gltf').faces.length, 3);
+});
+
 test('errors are sentences with a status', () => {
   for (const [call, status, words] of [
     [() => mimicry.readMesh(bytesOf('hello'), 'notes.txt'), 'unsupported', /notes\.txt/],

@@ -16,6 +16,9 @@ import { buildInterface, shapeTitle, type Interface } from './ui/interface';
 
 export const kFirstShape = 'hand';
 const kMeshEndings = /\.(obj|ply|stl|off|glb|gltf)$/i;
+const kOwnEndings = new RegExp(`\\.(mimicry|json)$|\\${kDrawingEnding}$`, 'i');
+/** What models come with: it can be chosen together with them. */
+const kCompanionEndings = '.bin,.mtl,.png,.jpg,.jpeg,.webp,.ktx2';
 
 /** Everything on the page, put together. */
 export class App implements Actions {
@@ -236,7 +239,7 @@ export class App implements Actions {
     this.picker.type = 'file';
     this.picker.multiple = true;
     this.picker.hidden = true;
-    this.picker.accept = `.obj,.ply,.stl,.off,.glb,.gltf,.mimicry,.json,${kDrawingEnding}`;
+    this.picker.accept = `.obj,.ply,.stl,.off,.glb,.gltf,.mimicry,.json,${kDrawingEnding},${kCompanionEndings}`;
     this.picker.addEventListener('change', () => {
       this.openFiles(this.picker.files ?? []);
       this.picker.value = '';
@@ -265,13 +268,16 @@ export class App implements Actions {
     this.picker.click();
   }
 
-  openFiles(files: Iterable<File>): void {
-    // Models first: strokes and bakes that come along belong on them.
+  openFiles(given: Iterable<File>): void {
+    // Models first: strokes and bakes that come along belong on them. Buffers and textures go with them.
     const rank = (file: File): number => (kMeshEndings.test(file.name) ? 0 : 1);
+    const files = [...given].sort((a, b) => rank(a) - rank(b));
+    const hasModel = files.some((file) => kMeshEndings.test(file.name));
+    const beside = hasModel ? files.filter((file) => !kMeshEndings.test(file.name) && !kOwnEndings.test(file.name)) : [];
     void (async () => {
-      for (const file of [...files].sort((a, b) => rank(a) - rank(b))) {
+      for (const file of files.filter((f) => !beside.includes(f))) {
         try {
-          await this.openFile(file);
+          await this.openFile(file, beside);
         } catch (error) {
           if (!(error instanceof DOMException && error.name === 'AbortError')) this.ui.messages.problem(sentence(error));
         }
@@ -279,9 +285,9 @@ export class App implements Actions {
     })();
   }
 
-  private async openFile(file: File): Promise<void> {
+  private async openFile(file: File, beside: readonly File[]): Promise<void> {
     if (kMeshEndings.test(file.name)) {
-      const model = await this.load(file.name, file);
+      const model = await this.load(file.name, file, beside);
       this.show(model);
       this.ui.messages.say(`${file.name} is open.`);
       return;
@@ -308,12 +314,12 @@ export class App implements Actions {
     }
   }
 
-  private async load(name: string, content: Blob | Uint8Array): Promise<LoadedModel> {
+  private async load(name: string, content: Blob | Uint8Array, beside: readonly File[] = []): Promise<LoadedModel> {
     this.loading?.abort();
     const controller = (this.loading = new AbortController());
     const work = this.ui.messages.work(`Reading ${name}`, () => controller.abort());
     try {
-      return await loadModel(name, content, (stage, fraction) => work.progress(stage, fraction), controller.signal);
+      return await loadModel(name, content, beside, (stage, fraction) => work.progress(stage, fraction), controller.signal);
     } finally {
       work.done();
     }

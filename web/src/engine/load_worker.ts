@@ -1,11 +1,14 @@
 import { Mimicry } from 'mimicry';
 import type { LoadedModel } from '../studio';
+import { bufferNames, packed } from './gltf_files';
 import { prepareModel } from './model';
 
 export interface LoadOrder {
   name: string;
   /** Whole, or still on the disk. */
   content: Blob | Uint8Array;
+  /** Files that came with it: the buffers of a glTF are among them. */
+  beside: readonly File[];
 }
 export type LoadNews = { stage: string; fraction: number | null } | { model: LoadedModel } | { problem: string };
 
@@ -17,12 +20,17 @@ const tell = (news: LoadNews, transfer: Transferable[] = []): void => (self as u
 self.onmessage = async ({ data }: MessageEvent<LoadOrder>): Promise<void> => {
   try {
     const bytes = data.content instanceof Blob ? await read(data.content, data.name) : data.content;
+    const names = data.beside.length > 0 ? bufferNames(bytes) : [];
+    const buffers = data.beside.filter((file) => names.includes(file.name));
+    const files = await Promise.all(buffers.map(async (file) => ({ name: file.name, bytes: await read(file, file.name) })));
     tell({ stage: `Reading ${data.name}`, fraction: null });
     await core.ready;
-    const mesh = core.readMesh(bytes, data.name);
+    const mesh = core.readMeshFiles([{ name: data.name, bytes }, ...files], data.name);
     tell({ stage: `Looking at ${data.name}`, fraction: 0.7 });
-    const model = prepareModel(core, mesh, data.name, { file: data.name, bytes });
-    tell({ model }, [model.mesh.positions.buffer, model.mesh.faces.buffer, model.corners.positions.buffer as ArrayBuffer, model.corners.normals.buffer as ArrayBuffer, bytes.buffer as ArrayBuffer]);
+    // What is kept with a drawing and sent to be prepared is one file.
+    const kept = files.length > 0 ? packed(bytes, files) : bytes;
+    const model = prepareModel(core, mesh, data.name, { file: data.name, bytes: kept });
+    tell({ model }, [model.mesh.positions.buffer, model.mesh.faces.buffer, model.corners.positions.buffer as ArrayBuffer, model.corners.normals.buffer as ArrayBuffer, kept.buffer as ArrayBuffer]);
   } catch (error) {
     tell({ problem: error instanceof Error ? error.message : String(error) });
   }

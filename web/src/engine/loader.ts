@@ -13,11 +13,12 @@ export function warmLoader(): void {
   spare ??= start();
 }
 
-/** Reads a model in a worker. Rejects with an Error whose message is a sentence; `signal` stops it at once. */
-export function loadModel(name: string, content: Blob | Uint8Array, onProgress: (stage: string, fraction: number | null) => void, signal: AbortSignal): Promise<LoadedModel> {
+/** Reads a model in a worker. `beside`: files that came with it. Rejects with an Error whose message is a sentence; `signal` stops it at once. */
+export function loadModel(name: string, content: Blob | Uint8Array, beside: readonly File[], onProgress: (stage: string, fraction: number | null) => void, signal: AbortSignal): Promise<LoadedModel> {
   const size = content instanceof Blob ? content.size : content.length;
-  if (size > kMostFileBytes) {
-    return Promise.reject(new Error(`${name}: ${(size / 1e9).toFixed(1)} GB is more than a browser can hold; simplify the model to at most ${kMostFileBytes / 1e6} MB first`));
+  const all = beside.reduce((sum, file) => sum + (/\.bin$/i.test(file.name) ? file.size : 0), size);
+  if (all > kMostFileBytes) {
+    return Promise.reject(new Error(`${name}: ${(all / 1e9).toFixed(1)} GB is more than a browser can hold; simplify the model to at most ${kMostFileBytes / 1e6} MB first`));
   }
   if (size === 0) return Promise.reject(new Error(`${name}: the file is empty; export it again`));
   const worker = spare ?? start();
@@ -47,6 +48,6 @@ export function loadModel(name: string, content: Blob | Uint8Array, onProgress: 
       worker.terminate();
       reject(new Error(`${name}: the browser ran out of memory or the reader could not be loaded; try a smaller model, or reload the page`));
     };
-    worker.postMessage({ name, content } satisfies LoadOrder);
+    worker.postMessage({ name, content, beside } satisfies LoadOrder);
   });
 }

@@ -67,6 +67,30 @@ describe('models', () => {
     await expect.poll(modelName).toBe('trefoil');
   });
 
+  it('a glTF opens with the files that it names, and stays', async () => {
+    const gltf = JSON.stringify({
+      asset: { version: '2.0' },
+      nodes: [{ mesh: 0 }],
+      meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+      accessors: [{ bufferView: 0, count: 3, componentType: 5126, type: 'VEC3' }],
+      bufferViews: [{ buffer: 0, byteLength: 36 }],
+      buffers: [{ uri: 'corner%201.bin', byteLength: 36 }],
+      images: [{ uri: 'wood.png' }],
+    });
+    const bin = Buffer.from(new Float32Array([-1, -1, 0, 1, -1, 0, 0, 1, 0]).buffer);
+    await choose({ name: 'corner.gltf', bytes: gltf });
+    await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/corner\.gltf.*corner 1\.bin.*together/);
+    await choose({ name: 'corner 1.bin', bytes: bin }, { name: 'wood.png', bytes: 'x' }, { name: 'corner.gltf', bytes: gltf });
+    await expect.poll(modelName).toBe('corner.gltf');
+    await stroke(page, kAcross);
+    expect((await summary(page)).curves[0]!.points).toBeGreaterThan(5);
+    await settled();
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await modelName()).toBe('corner.gltf');
+    expect((await summary(page)).curves).toHaveLength(1);
+  });
+
   it('what cannot be used is answered by a sentence, and nothing is lost', async () => {
     await stroke(page, kAcross);
     const bad = [
