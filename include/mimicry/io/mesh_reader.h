@@ -16,9 +16,9 @@ struct MeshReadOptions {
   // Limits beyond which a file is refused before its content is held in memory.
   std::size_t max_vertices = 100'000'000;
   std::size_t max_faces = 200'000'000;
-  /// What a glTF may unfold to by using meshes again and again: triangles and vertices, or 16 a byte
-  /// of what was read where that is more. A file whose triangles are all its own has fewer than that;
-  /// ten million take about half a gigabyte.
+  /// What a glTF may unfold to by using meshes again and again: triangles and vertices, or 16 a
+  /// byte of what was read where that is more. A file whose triangles are all its own has fewer
+  /// than that; ten million take about half a gigabyte.
   std::size_t max_unfolded = 10'000'000;
   /// Is told, a sentence each, what was passed over or mended; may be empty.
   std::function<void(const std::string& sentence)> note = {};
@@ -38,16 +38,16 @@ struct MeshReadOptions {
 /// - GLB, glTF 2.0: all triangles, strips and fans of the default scene, nodes depth first, with
 ///   what moves them (docs/formats.md, "glTF"). Vertices stand in the order of the primitives, at
 ///   seams as often as the file has them; primitives of one mesh that name the same accessors share
-///   them. Triangles of a strip that repeat a vertex are left out, they only join strips. The name's
-///   ending does not tell GLB and glTF apart, the first bytes do.
+///   them. Triangles of a strip that repeat a vertex are left out, they only join strips. The
+///   name's ending does not tell GLB and glTF apart, the first bytes do.
 ///
 /// The content is not judged (`nan` and `inf` are read as such, degenerate faces are kept):
 /// validation reports it. Throws Error(invalid_input) with name, line or byte offset where the
 /// file is cut short, not of its format, refers to a vertex that does not exist, or holds no
-/// triangle; Error(io) where a file that it needs is not beside it; Error(unsupported) where it needs
-/// what is not handled (unknown extensions, decoders that this build lacks, more than the limits).
-/// Memory and time are O(size of the file), whatever its header claims; of glTF that uses meshes
-/// again and again O(triangles), within `max_unfolded`.
+/// triangle; Error(io) where a file that it needs is not beside it; Error(unsupported) where it
+/// needs what is not handled (unknown extensions, decoders that this build lacks, more than the
+/// limits). Memory and time are O(size of the file), whatever its header claims; of glTF that uses
+/// meshes again and again O(triangles), within `max_unfolded`.
 TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
                        const MeshReadOptions& options = {});
 
