@@ -26,11 +26,19 @@
 #define MIMICRY_API
 #endif
 
+/* In C any number may stand in an enumeration; without a fixed type C++ could not even look at one
+ * that has no name. */
+#ifdef __cplusplus
+#define MIMICRY_INT : int
+#else
+#define MIMICRY_INT
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef enum mimicry_status {
+typedef enum mimicry_status MIMICRY_INT {
   MIMICRY_OK = 0,
   MIMICRY_INVALID_INPUT = 1, /* a file, mesh, pose or option that cannot be used as it is */
   MIMICRY_IO = 2,
@@ -265,7 +273,7 @@ typedef struct mimicry_frame {
   double pressure; /* 0 to 1; below 0 where there is none */
 } mimicry_frame;
 
-typedef enum mimicry_frame_status {
+typedef enum mimicry_frame_status MIMICRY_INT {
   MIMICRY_FRAME_INKED = 0,
   MIMICRY_FRAME_MISSED = 1,  /* the point is undefined */
   MIMICRY_FRAME_STILL = 2,   /* passed over: less motion than the minimum */
@@ -369,7 +377,7 @@ MIMICRY_API const float* mimicry_tube_positions(const mimicry_tube* tube); /* #V
 MIMICRY_API const float* mimicry_tube_normals(const mimicry_tube* tube);   /* #V by 3, unit */
 MIMICRY_API const uint32_t* mimicry_tube_faces(const mimicry_tube* tube);  /* #F by 3 */
 
-typedef enum mimicry_curve_format {
+typedef enum mimicry_curve_format MIMICRY_INT {
   MIMICRY_CURVES_JSON = 0,
   MIMICRY_CURVES_OBJ = 1,
   MIMICRY_CURVES_CSV = 2,

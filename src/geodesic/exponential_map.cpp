@@ -9,6 +9,9 @@
 namespace mimicry::geodesic {
 namespace {
 
+// What rounding alone takes across a bound is left as it is.
+constexpr double kRounding = 1e-9;
+
 // A unit vector orthogonal to `normal`, near v.
 Vec3 in_plane(const Vec3& v, const Vec3& normal) {
   const Vec3 part = v - v.dot(normal) * normal;
@@ -48,12 +51,14 @@ DiscreteExponentialMap::DiscreteExponentialMap(const TriangleMesh& mesh,
       states_(vertex_normals.size()),
       keys_(vertex_normals.size()),
       from_(vertex_normals.size()),
+      bounds_(vertex_normals.size()),
       x_axes_(vertex_normals.size()),
       places_(vertex_normals.size()) {}
 
 template <class Visit>
 void DiscreteExponentialMap::for_each_neighbour(Index vertex, Visit&& visit) const {
   const Index first = half_edges_.outgoing(vertex);
+  if (first < 0) return;  // faces that repeat a corner are all it has
   Index h = first;
   Index last = kNone;
   do {
@@ -64,8 +69,10 @@ void DiscreteExponentialMap::for_each_neighbour(Index vertex, Visit&& visit) con
   if (h < 0) visit(half_edges_.tail(HalfEdges::previous(last)));
 }
 
-void DiscreteExponentialMap::reach(Index vertex, const Vec2& place, double key, Index from) {
+void DiscreteExponentialMap::reach(Index vertex, const Vec2& place, double key, double bound,
+                                   Index from) {
   const auto i = static_cast<std::size_t>(vertex);
+  bounds_[i] = bound;
   if (stamps_[i] == stamp_ && !(key < keys_[i])) return;
   stamps_[i] = stamp_;
   states_[i] = reached;
@@ -97,7 +104,6 @@ bool DiscreteExponentialMap::unfold(Index h, Vec2& place) const {
   if (!(square > 0.0)) return false;
   const double sy = std::sqrt(square);
   const double crossed = sx + (qx - sx) * (sy / (sy + qy));
-  constexpr double kRounding = 1e-9;
   if (!(crossed >= -kRounding * e && crossed <= (1.0 + kRounding) * e)) return false;
   const double angle_b = angle(Vec2(-sx, sy), Vec2(e - sx, sy));
   const double angle_q = angle(Vec2(-sx, sy), Vec2(qx - sx, qy + sy));
@@ -112,10 +118,36 @@ bool DiscreteExponentialMap::unfold(Index h, Vec2& place) const {
   return true;
 }
 
+// A shortest way is no longer than any along edges: where faces are slivers or the surface crosses
+// itself, unfolding says so.
+void DiscreteExponentialMap::settle(Index vertex) {
+  const auto i = static_cast<std::size_t>(vertex);
+  states_[i] = settled;
+  const double straight = (mesh_.position(vertex) - patch_.origin).norm();
+  const double most = std::max(bounds_[i], straight);
+  const double length = places_[i].norm();
+  if (length > (1.0 + kRounding) * most) places_[i] *= most / length;
+}
+
+// Nor is any way shorter than the straight line. This is not passed on: what is a little too short
+// near the centre would lengthen all that lies behind it.
+Vec2 DiscreteExponentialMap::no_shorter_than_straight(Index vertex) const {
+  const Vec2& place = places_[static_cast<std::size_t>(vertex)];
+  const Vec3 straight = mesh_.position(vertex) - patch_.origin;
+  const double least = straight.norm();
+  const double length = place.norm();
+  if (length >= (1.0 - kRounding) * least) return place;
+  return length > 0.0 ? Vec2(place * (least / length))
+                      : laid(straight, patch_.x_axis, patch_.normal);
+}
+
 void DiscreteExponentialMap::update(Index vertex, Index from) {
   const auto i = static_cast<std::size_t>(vertex);
   if (is_settled(vertex) || (stamps_[i] == stamp_ && from_[i] == kNone)) return;
   const double least = keys_[static_cast<std::size_t>(from)];
+  const double along = bounds_[static_cast<std::size_t>(from)] +
+                       (mesh_.position(vertex) - mesh_.position(from)).norm();
+  const double bound = stamps_[i] == stamp_ ? std::min(bounds_[i], along) : along;
   Vec2 best = Vec2::Zero();
   double distance = kInfinity;
   const Index first = half_edges_.outgoing(vertex);
@@ -143,10 +175,18 @@ void DiscreteExponentialMap::update(Index vertex, Index from) {
       weights += weight;
       distance = std::min(distance, places_[n].norm() + edge.norm());
     });
-    if (!(weights > 0.0)) return;
+    if (!(weights > 0.0)) {  // a fan that touches here: its way back is not among the neighbours
+      const auto n = static_cast<std::size_t>(from);
+      const Vec3 edge = mesh_.position(vertex) - mesh_.position(from);
+      sum = places_[n] + laid(edge, x_axes_[n], normals_[n]);
+      weights = 1.0;
+      distance = places_[n].norm() + edge.norm();
+    }
     best = sum / weights;
   }
-  reach(vertex, best, std::max(distance, least), from);
+  // Keys within the bound are in the order in which ways along edges arrive.
+  if (distance > (1.0 + kRounding) * bound) distance = bound;
+  reach(vertex, best, std::max(distance, least), bound, from);
 }
 
 const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& point, double radius,
@@ -170,11 +210,13 @@ const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& poin
   const Site site = site_of(mesh_, p);
   const auto reach_from_centre = [&](Index v) {
     const Vec3 to = mesh_.position(v) - patch_.origin;
-    reach(v, laid(to, patch_.x_axis, patch_.normal), to.norm(), kNone);
+    reach(v, laid(to, patch_.x_axis, patch_.normal), to.norm(), to.norm(), kNone);
   };
   if (site.kind == Site::Kind::vertex) {
     reach_from_centre(site.index);
     for_each_neighbour(site.index, reach_from_centre);
+    // Of another fan that touches here, where p is in that.
+    for (const Index v : mesh_.face(p.face)) reach_from_centre(v);
   } else {
     for (const Index v : mesh_.face(p.face)) reach_from_centre(v);
     if (site.kind == Site::Kind::edge && half_edges_.has_twin(site.index))
@@ -186,13 +228,14 @@ const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& poin
     heap_.pop_back();
     const auto i = static_cast<std::size_t>(top.vertex);
     if (states_[i] == settled || top.key != keys_[i]) continue;
-    states_[i] = settled;
+    settle(top.vertex);
     const auto parent = static_cast<std::size_t>(from_[i]);
     x_axes_[i] = from_[i] == kNone ? turned(patch_.x_axis, patch_.normal, normals_[i])
                                    : turned(x_axes_[parent], normals_[parent], normals_[i]);
-    if (places_[i].norm() > radius) continue;
+    const Vec2 place = no_shorter_than_straight(top.vertex);
+    if (place.norm() > radius) continue;
     patch_.vertices.push_back(top.vertex);
-    patch_.coordinates.push_back(places_[i]);
+    patch_.coordinates.push_back(place);
     for_each_neighbour(top.vertex, [&](Index n) { update(n, top.vertex); });
   }
   return patch_;

@@ -181,16 +181,21 @@ TraceStop Walk::start(const SurfacePoint& from, const Vec3& direction, Flat& bes
 }
 
 Trace Walk::run(const SurfacePoint& from, const Vec3& direction, double length) {
+  const Face& corners = mesh_.face(from.face);
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+    return {TraceStop::no_direction, from, Vec3::Zero(), 0.0};  // nor has it neighbours
   Flat flat(mesh_, 3 * from.face);
   const TraceStop started = start(from, direction, flat);
   if (started == TraceStop::no_direction) return {started, from, Vec3::Zero(), 0.0};
   if (started == TraceStop::boundary || length == 0.0)
     return {started, from, flat.space(direction_), 0.0};
 
-  // A path of finite length meets finitely many faces; the count ends one that rounding holds up in
-  // faces without size.
-  const std::size_t most_steps = 1000000 + 1000 * static_cast<std::size_t>(half_edges_.count());
-  for (std::size_t step = 0; step < most_steps; ++step) {
+  // Faces without size are passed without a step forward, each at most once from each side; more
+  // than that goes in circles.
+  const auto most_idle = static_cast<std::size_t>(half_edges_.count());
+  const std::size_t most_steps = 100000 + 100 * most_idle;
+  std::size_t idle = 0;
+  for (std::size_t step = 0; step < most_steps && idle <= most_idle; ++step) {
     int exit = -1;
     double nearest = kInfinity;
     for (int k = 0; k < 3; ++k) {
@@ -217,6 +222,7 @@ Trace Walk::run(const SurfacePoint& from, const Vec3& direction, double length) 
       return stop(TraceStop::complete, flat);
     }
     at_ += nearest * direction_;
+    idle = walked_ + nearest > walked_ ? 0 : idle + 1;
     walked_ += nearest;
 
     const Vec2 edge = flat.corners[(exit + 1) % 3] - flat.corners[exit];
@@ -264,7 +270,7 @@ Trace Walk::run(const SurfacePoint& from, const Vec3& direction, double length) 
     skip_[0] = true;
     skip_[1] = skip_[2] = false;
   }
-  return stop(TraceStop::complete, flat);
+  return stop(TraceStop::held_up, flat);
 }
 
 // Neither is its square's sum with two others infinite.

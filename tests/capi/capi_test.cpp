@@ -206,6 +206,15 @@ TEST(CApi, FilesComeBack) {
   for (const auto format :
        {MIMICRY_CURVES_OBJ, MIMICRY_CURVES_CSV, MIMICRY_CURVES_PLY, MIMICRY_CURVES_GLB})
     EXPECT_GT(text(write(target.get(), {curve.get()}, format)).size(), 100u);
+  for (const int unknown : {-1, 17, 1 << 30}) {
+    mimicry_bytes* none = nullptr;
+    const mimicry_curve* one = curve.get();
+    EXPECT_EQ(mimicry_curves_write(target.get(), "shape", &one, 1,
+                                   static_cast<mimicry_curve_format>(unknown), nullptr, 0.01, &none),
+              MIMICRY_INVALID_INPUT);
+    EXPECT_EQ(none, nullptr);
+    EXPECT_THAT(mimicry_last_error(), HasSubstr(std::to_string(unknown)));
+  }
 
   const auto strokes = make<Strokes>(mimicry_strokes_create);
   ASSERT_EQ(

@@ -1,5 +1,10 @@
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <queue>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +14,7 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/support.h"
+#include "messy/messy_meshes.h"
 
 namespace mimicry::geodesic {
 namespace {
@@ -113,6 +119,78 @@ TEST(ExponentialMap, NastyMeshesGiveNoNaNAndBadInputIsNamed) {
   EXPECT_THROW(map.compute({0, Vec3(1, 1, 0)}, 1.0), Error);
   EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, 0.0), Error);
   EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, std::nan("")), Error);
+}
+
+// Lengths of the shortest ways along edges (Dijkstra 1959) from a point, by the fans that the map
+// sees; the first step is straight, to the corners of the faces that the point is on.
+std::vector<double> ways_along_edges(const TriangleMesh& mesh, const HalfEdges& edges,
+                                     const SurfacePoint& p) {
+  std::vector<double> way(static_cast<std::size_t>(mesh.vertex_count()), kInfinity);
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto offer = [&](Index v, double length) {
+    if (length >= way[static_cast<std::size_t>(v)]) return;
+    way[static_cast<std::size_t>(v)] = length;
+    queue.emplace(length, v);
+  };
+  for (const Index v : mesh.face(p.face)) offer(v, (mesh.position(v) - mesh.position(p)).norm());
+  while (!queue.empty()) {
+    const auto [length, v] = queue.top();
+    queue.pop();
+    if (length > way[static_cast<std::size_t>(v)]) continue;
+    const auto step = [&](Index u) {
+      offer(u, length + (mesh.position(u) - mesh.position(v)).norm());
+    };
+    const Index first = edges.outgoing(v);
+    if (first < 0) continue;
+    Index h = first, last = first;
+    do {
+      step(edges.head(h));
+      last = h;
+      h = edges.ccw(h);
+    } while (h >= 0 && h != first);
+    if (h < 0) step(edges.tail(HalfEdges::previous(last)));
+  }
+  return way;
+}
+
+void expect_within_bounds(const TriangleMesh& mesh, std::uint64_t seed, std::size_t& looked_at) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const HalfEdges edges(mesh);
+  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  DiscreteExponentialMap map(mesh, edges, normals);
+  Random random(seed);
+  for (int i = 0; i < 5; ++i) {
+    const SurfacePoint p = test::random_point(mesh, random);
+    const std::vector<double> ways = ways_along_edges(mesh, edges, p);
+    const ExponentialPatch& patch = map.compute(p, kInfinity);
+    const double size = diagonal(mesh);
+    for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+      const double length = patch.coordinates[k].norm();
+      const Index v = patch.vertices[k];
+      // The map leaves alone what is within 1e-9 of a bound.
+      const double straight = (mesh.position(v) - mesh.position(p)).norm();
+      ASSERT_GE(length, (1.0 - 2e-9) * straight - 1e-14 * size) << "vertex " << v;
+      ASSERT_LE(length, (1.0 + 2e-9) * ways[static_cast<std::size_t>(v)] + 1e-14 * size)
+          << "vertex " << v;
+      ++looked_at;
+    }
+  }
+}
+
+TEST(ExponentialMap, LengthsAreBetweenTheStraightLineAndTheWayAlongEdges) {
+  std::size_t looked_at = 0;
+  for (const messy::Family& family : messy::families()) {
+    SCOPED_TRACE(family.name);
+    expect_within_bounds(family.make(500, 3), 3, looked_at);
+  }
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    std::vector<std::uint8_t> bytes(200);
+    for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random.bits());
+    expect_within_bounds(messy::of_bytes(bytes), seed, looked_at);
+  }
+  EXPECT_GT(looked_at, 20000u);
 }
 
 }  // namespace

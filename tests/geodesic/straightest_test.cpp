@@ -10,6 +10,7 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/support.h"
+#include "messy/messy_meshes.h"
 
 namespace mimicry::geodesic {
 namespace {
@@ -143,6 +144,46 @@ TEST(Straightest, BadInputIsNamedAndNoDirectionIsAResult) {
   const Trace stays = trace_straightest(mesh, edges, a, Vec3::UnitX(), 0);
   EXPECT_EQ(stays.stop, TraceStop::complete);
   EXPECT_EQ(mesh.position(stays.end), mesh.position(a));
+}
+
+TEST(Straightest, CompleteMeansWalkedOnAnyMesh) {
+  // A face that names a vertex twice, beside a sound one: there is no way through it.
+  const TriangleMesh twice({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 0}, {2, 2, 2}});
+  std::size_t complete = 0, other = 0;
+  const auto check = [&](const TriangleMesh& mesh, std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const HalfEdges edges(mesh);
+    Random random(seed);
+    for (int i = 0; i < 20; ++i) {
+      const SurfacePoint a = test::random_point(mesh, random);
+      const Vec3 direction(random.normal(), random.normal(), random.normal());
+      const double length = std::pow(10.0, random.uniform(-3.0, 2.0));
+      std::vector<Crossing> crossings;
+      const Trace trace = trace_straightest(mesh, edges, a, direction, length, &crossings);
+      ASSERT_TRUE(trace.end.bary.allFinite() && trace.direction.allFinite());
+      ASSERT_LE(trace.length, length);
+      ASSERT_LE(crossings.size(), 100000u + 300u * static_cast<std::size_t>(mesh.face_count()));
+      if (trace.stop == TraceStop::complete) {
+        ASSERT_EQ(trace.length, length);
+        ++complete;
+      } else {
+        ++other;
+      }
+    }
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) check(twice, seed);
+  for (const messy::Family& family : messy::families()) {
+    SCOPED_TRACE(family.name);
+    check(family.make(40, 1), 1);
+  }
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    std::vector<std::uint8_t> bytes(200);
+    for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random.bits());
+    check(messy::of_bytes(bytes), seed);
+  }
+  EXPECT_GT(complete, 100u);
+  EXPECT_GT(other, 100u);
 }
 
 TEST(ParallelTransport, OnAPlaneNothingTurns) {

@@ -26,7 +26,10 @@ struct ExponentialPatch {
 /// curved surfaces; elsewhere a vertex takes the mean, weighted by nearness, of its neighbours'
 /// coordinates plus the edges laid in their tangent planes with their lengths kept (Schmidt 2013),
 /// planes turned into each other step by step along the way. Exact on planes. Beyond the points
-/// that several ways reach (the cut locus) coordinates tear. Refers to its arguments, which must
+/// that several ways reach (the cut locus) coordinates tear. On any mesh, however bad its faces,
+/// lengths are at least those of the straight lines and at most those of the shortest ways along
+/// edges (that begin with a straight line to a corner of the centre's face), but for rounding: what
+/// leaves these bounds keeps its direction. Refers to its arguments, which must
 /// outlive it.
 class DiscreteExponentialMap {
  public:
@@ -59,7 +62,9 @@ class DiscreteExponentialMap {
     return stamps_[i] == stamp_ && states_[i] == settled;
   }
   bool unfold(Index h, Vec2& place) const;
-  void reach(Index vertex, const Vec2& place, double key, Index from);
+  void settle(Index vertex);
+  Vec2 no_shorter_than_straight(Index vertex) const;
+  void reach(Index vertex, const Vec2& place, double key, double bound, Index from);
   void update(Index vertex, Index from);
 
   const TriangleMesh& mesh_;
@@ -72,6 +77,7 @@ class DiscreteExponentialMap {
   std::vector<State> states_;
   std::vector<double> keys_;
   std::vector<Index> from_;   // the vertex that it was reached from, kNone: the centre
+  std::vector<double> bounds_;  // of the length, by the edges from settled neighbours
   std::vector<Vec3> x_axes_;  // the centre's x axis, carried to the vertex
   std::vector<Vec2> places_;
 };
