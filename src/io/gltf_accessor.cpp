@@ -132,7 +132,7 @@ void GltfAccessor::read_sparse(const GltfJson& gltf, GltfBuffers& buffers, const
   const std::size_t size = components_ * component_size(component_type_);
   const char* indices = first(*index_part, index_size);
   const char* values = first(*value_part, size);
-  buffers.spend(count, place);
+  buffers.spend(4 * count, place);  // as much memory as some vertices
   sparse_.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double element = load_component(indices + index_size * k, index_type, false);

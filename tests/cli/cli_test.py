@@ -77,6 +77,21 @@ class CommandLine(unittest.TestCase):
         os.symlink("../secret.bin", self.path("model/link.bin"))
         self.assertIn("link.bin", run("info", gltf("model/link.gltf", "link.bin"), expect=3).stderr)
 
+    def test_gltf_that_unfolds_to_too_much(self):
+        small = self.write("small.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"count": 60000000, "componentType": 5126, "type": "VEC3"}]}))
+        said = run("info", small, expect=3).stderr
+        self.assertIn("unfolds to 20000000 triangles, more than the 10000000", said)
+        self.assertIn("MIMICRY_MAX_UNFOLDED", said)
+        for limit, answer in (("20000001", "unfolds to 60000000 vertices, more than the 20000001"),
+                              ("many", "'many' is not a number of triangles")):
+            done = subprocess.run([PROGRAM, "info", small], capture_output=True, text=True, timeout=120,
+                                  env={**os.environ, "MIMICRY_MAX_UNFOLDED": limit})
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(answer, done.stderr)
+
     def test_same_input_gives_the_same_files(self):
         for out in ("a", "b"):
             run("simulate", "shape:torus:24", "--seed", "7", "--out", self.path(out + ".json"))

@@ -18,7 +18,7 @@ struct MeshReadOptions {
   std::size_t max_faces = 200'000'000;
   /// What a glTF may unfold to by using meshes again and again: triangles and vertices, or 16 a
   /// byte of what was read where that is more. A file whose triangles are all its own has fewer
-  /// than that; ten million take about half a gigabyte.
+  /// than that; ten million of both take 360 MB.
   std::size_t max_unfolded = 10'000'000;
   /// Is told, a sentence each, what was passed over or mended; may be empty.
   std::function<void(const std::string& sentence)> note = {};
