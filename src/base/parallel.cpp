@@ -3,7 +3,9 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -70,8 +72,15 @@ struct Executor::State {
 
 Executor::Executor(int threads) : state_(std::make_unique<State>()) {
 #ifndef MIMICRY_NO_THREADS
-  for (int t = 1; t < threads; ++t)
-    state_->pool.emplace_back([state = state_.get(), t] { state->serve(t); });
+  threads = std::min(threads, kMostThreads);
+  // Before the first thread starts: what throws later would leave threads that nobody joins.
+  state_->pool.reserve(static_cast<std::size_t>(std::max(threads, 1)));
+  try {
+    for (int t = 1; t < threads; ++t)
+      state_->pool.emplace_back([state = state_.get(), t] { state->serve(t); });
+  } catch (const std::system_error&) {  // a limit of the process, user or container
+  } catch (const std::bad_alloc&) {
+  }
 #else
   (void)threads;
 #endif

@@ -7,13 +7,17 @@
 
 namespace mimicry {
 
+/// More threads than this are never started.
+inline constexpr int kMostThreads = 256;
+
 /// Runs loops on a fixed number of threads, the caller's among them. For offline work (bake,
 /// study); the drawing path takes none. Results depend on how a loop is cut into chunks and never
 /// on the number of threads, provided that chunks write to places of their own.
 class Executor {
  public:
-  /// threads: at least 1; smaller values count as 1. Where the platform has no threads
-  /// (WebAssembly without pthreads) everything runs in the caller.
+  /// threads: 1 to kMostThreads; values outside count as the nearest. Where the platform has no
+  /// threads (WebAssembly without pthreads) everything runs in the caller. Where the system gives no
+  /// more threads there are fewer: `threads()` says how many.
   explicit Executor(int threads = 1);
   ~Executor();
   Executor(const Executor&) = delete;
