@@ -1,14 +1,18 @@
+#include <csignal>
 #include <filesystem>
 #include <string>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
+#include <mimicry/files/append_file.h>
 #include <mimicry/files/beside.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 
 namespace mimicry::files {
 namespace {
@@ -85,9 +89,10 @@ TEST_F(FileTest, LinkStaysALinkAndAPipeStaysAPipe) {
 }
 
 TEST_F(FileTest, PartOfAnotherWriterIsNotTouched) {
-  write_file_atomically(path("a.part0"), "another's");
+  const std::string part = path("a.part") + std::to_string(::getpid()) + "-0";
+  write_file_atomically(part, "another's");
   write_file_atomically(path("a"), "ours");
-  EXPECT_EQ(read_file(path("a.part0")), "another's");
+  EXPECT_EQ(read_file(part), "another's");
   EXPECT_EQ(read_file(path("a")), "ours");
 }
 
@@ -117,6 +122,89 @@ TEST_F(FileTest, FilesBesideAnotherAreReadAndNoneOutsideOfItsFolder) {
   for (const char* name : {"../secret", "/etc/passwd", "outside", "up/secret", "..", "up"})
     EXPECT_EQ(kind(name), ErrorKind::unsupported) << name;
   for (const char* name : {"pipe", "parts", "."}) EXPECT_EQ(kind(name), ErrorKind::io) << name;
+}
+
+TEST_F(FileTest, PipeWithoutItsOtherEndIsAnErrorAndNoWait) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_file_atomically(path("pipe"), "x"), Error);
+  EXPECT_THROW(read_file(path("pipe"), Accept::regular), Error);
+  EXPECT_THROW(MappedFile(path("pipe"), Accept::regular), Error);
+  EXPECT_THROW(AppendFile(path("pipe"), 0), Error);
+  EXPECT_THROW(AppendFile("/dev/null", 0), Error);
+  EXPECT_THROW(AppendFile(folder_.string(), 0), Error);
+  write_file_atomically("/dev/null", "x");
+  EXPECT_THROW(write_file_atomically("/dev/full", "x"), Error);
+}
+
+TEST_F(FileTest, AppendedBytesStayOnceSynced) {
+  {
+    AppendFile file(path("rows"), 0);
+    file.append("one\n");
+    file.sync();
+    file.append("two\n");
+    EXPECT_EQ(file.size(), 8u);
+    EXPECT_EQ(read_file(path("rows")), "one\ntwo\n");
+  }
+  EXPECT_EQ(read_file(path("rows")), "one\n");
+  {
+    AppendFile file(path("rows"), 2);
+    file.append("ce");
+    file.sync();
+  }
+  EXPECT_EQ(read_file(path("rows")), "once");
+}
+
+TEST_F(FileTest, LockKeepsASecondOneOutUntilItIsGone) {
+  const auto refused = [&](auto&& take) {
+    try {
+      take();
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      EXPECT_NE(std::string(error.what()).find(path("out")), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--out"), std::string::npos) << error.what();
+      return true;
+    }
+  };
+  const auto folder = [&] { return OutputLock::of_folder(path("out")); };
+  const auto file = [&] { return OutputLock::of_file(path("out.csv")); };
+  for (int round = 0; round < 3; ++round) {
+    const OutputLock one = folder();
+    const OutputLock two = file();
+    EXPECT_TRUE(refused(folder));
+    EXPECT_TRUE(refused(file));
+    EXPECT_TRUE(fs::exists(path(".out.csv.lock")));
+    EXPECT_TRUE(fs::is_empty(path("out")));
+  }
+  EXPECT_FALSE(refused(folder));
+  EXPECT_EQ(entries(), 1);  // the folder; no lock's file is left
+  EXPECT_THROW(OutputLock::of_file(path("no/such")), Error);
+  EXPECT_THROW(OutputLock::of_folder("/dev/null/x"), Error);
+  (void)OutputLock::of_file("/dev/null");
+}
+
+TEST_F(FileTest, WhatIsUnfinishedCanBeRemovedAtAnyTime) {
+  // A child writes files again and again, and ends itself in the middle of it as a signal would.
+  for (int round = 0; round < 40; ++round) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      std::signal(SIGALRM, [](int) {
+        remove_unfinished();
+        ::_exit(0);
+      });
+      const OutputLock lock = OutputLock::of_file(path("a"));
+      ::ualarm(static_cast<useconds_t>(1000 + 700 * round), 0);
+      const std::string bytes(100'000, 'x');
+      for (;;) write_file_atomically(path("a"), bytes);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    for (const auto& entry : fs::directory_iterator(folder_))
+      EXPECT_EQ(entry.path().filename(), "a") << "round " << round;
+  }
+  EXPECT_EQ(read_file(path("a")).size(), 100'000u);
 }
 
 }  // namespace
