@@ -208,14 +208,15 @@ MIMICRY_API mimicry_status mimicry_target_with_embedding(const mimicry_target* t
                                                          const char* name, mimicry_target** out);
 MIMICRY_API int32_t mimicry_target_has_embedding(const mimicry_target* target);
 
-/* Called during a bake with a stage's name and how far it is, 0 to 1; returning 0 cancels. */
+/* Called during long work, in the thread that asked for it, with a stage's name and how far it is,
+ * 0 to 1. Returning 0 cancels: the function gives MIMICRY_CANCELLED and makes nothing. */
 typedef int32_t (*mimicry_progress)(void* user, const char* stage, double fraction);
 
 typedef struct mimicry_bake_options {
   int32_t dimension; /* 3 to 8 */
   int32_t samples;   /* at most */
   double offset;     /* half the shell's thickness, part of the diagonal */
-  int32_t threads;   /* 1 where there are no threads */
+  int32_t threads;   /* at most 256; fewer are used where the system gives no more. Below 1: 1 */
   int32_t unused;
 } mimicry_bake_options;
 
@@ -354,15 +355,29 @@ MIMICRY_API mimicry_status mimicry_curve_with_stroke(const mimicry_curve* curve,
 /* Points [first, end) of it; an open curve. */
 MIMICRY_API mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, size_t end,
                                                mimicry_curve** out);
-/* count points at equal steps of length, at least 2. */
+/* count: points at equal steps of length, 2 to 10 million. O(count) short paths. */
 MIMICRY_API mimicry_status mimicry_curve_resample(const mimicry_curve* curve, size_t count,
                                                   mimicry_curve** out);
-/* strength: 0 to 1. */
+/* strength: 0 to 1. iterations: 0 to 100000, each of three short paths a point. */
 MIMICRY_API mimicry_status mimicry_curve_smooth(const mimicry_curve* curve, double strength,
                                                 int32_t iterations, mimicry_curve** out);
-/* tolerance: model units. */
+/* tolerance: model units. At worst, the square of the points. */
 MIMICRY_API mimicry_status mimicry_curve_simplify(const mimicry_curve* curve, double tolerance,
                                                   mimicry_curve** out);
+/* The same three, which may run for minutes on long curves, where they can be cancelled. progress:
+ * NULL for none. */
+MIMICRY_API mimicry_status mimicry_curve_resample_with_progress(const mimicry_curve* curve,
+                                                                size_t count,
+                                                                mimicry_progress progress,
+                                                                void* user, mimicry_curve** out);
+MIMICRY_API mimicry_status mimicry_curve_smooth_with_progress(const mimicry_curve* curve,
+                                                              double strength, int32_t iterations,
+                                                              mimicry_progress progress, void* user,
+                                                              mimicry_curve** out);
+MIMICRY_API mimicry_status mimicry_curve_simplify_with_progress(const mimicry_curve* curve,
+                                                                double tolerance,
+                                                                mimicry_progress progress,
+                                                                void* user, mimicry_curve** out);
 /* Joins the end to the start by the shortest path; fails where the surface does not join them. */
 MIMICRY_API mimicry_status mimicry_curve_close(const mimicry_curve* curve, mimicry_curve** out);
 

@@ -19,11 +19,10 @@ mimicry_status mimicry_bake(const mimicry_mesh* mesh, const mimicry_bake_options
     if (o.dimension < 3 || o.dimension > 8)
       throw Error(ErrorKind::invalid_input, "an embedding of " + std::to_string(o.dimension) +
                                                 " dimensions; 3 to 8 are possible");
-    const auto report = [&](const Progress& p) {
-      return progress(user, std::string(p.stage).c_str(), p.fraction) != 0;
-    };
-    return mimicry_bytes{
-        io::write_embedding(bake::bake(mesh->mesh, {o.dimension, o.samples, o.offset}, o.threads,
-                                       progress ? ProgressCallback(report) : ProgressCallback()))};
+    if (o.threads > kMostThreads)
+      throw Error(ErrorKind::invalid_input, std::to_string(o.threads) + " threads; at most " +
+                                                std::to_string(kMostThreads) + " are possible");
+    return mimicry_bytes{io::write_embedding(bake::bake(
+        mesh->mesh, {o.dimension, o.samples, o.offset}, o.threads, to_callback(progress, user)))};
   });
 }

@@ -137,25 +137,45 @@ mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, siz
   });
 }
 
+mimicry_status mimicry_curve_resample_with_progress(const mimicry_curve* curve, size_t count,
+                                                    mimicry_progress progress, void* user,
+                                                    mimicry_curve** out) {
+  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
+    return curve::resampled(c, t.mesh(), t.half_edges(), t.vertex_normals(), count,
+                            to_callback(progress, user));
+  });
+}
+
 mimicry_status mimicry_curve_resample(const mimicry_curve* curve, size_t count,
                                       mimicry_curve** out) {
+  return mimicry_curve_resample_with_progress(curve, count, nullptr, nullptr, out);
+}
+
+mimicry_status mimicry_curve_smooth_with_progress(const mimicry_curve* curve, double strength,
+                                                  int32_t iterations, mimicry_progress progress,
+                                                  void* user, mimicry_curve** out) {
   return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::resampled(c, t.mesh(), t.half_edges(), t.vertex_normals(), count);
+    return curve::smooth(c, t.mesh(), t.half_edges(), t.vertex_normals(), {strength, iterations},
+                         to_callback(progress, user));
   });
 }
 
 mimicry_status mimicry_curve_smooth(const mimicry_curve* curve, double strength, int32_t iterations,
                                     mimicry_curve** out) {
+  return mimicry_curve_smooth_with_progress(curve, strength, iterations, nullptr, nullptr, out);
+}
+
+mimicry_status mimicry_curve_simplify_with_progress(const mimicry_curve* curve, double tolerance,
+                                                    mimicry_progress progress, void* user,
+                                                    mimicry_curve** out) {
   return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::smooth(c, t.mesh(), t.half_edges(), t.vertex_normals(), {strength, iterations});
+    return curve::simplify(c, t.mesh(), t.half_edges(), tolerance, to_callback(progress, user));
   });
 }
 
 mimicry_status mimicry_curve_simplify(const mimicry_curve* curve, double tolerance,
                                       mimicry_curve** out) {
-  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::simplify(c, t.mesh(), t.half_edges(), tolerance);
-  });
+  return mimicry_curve_simplify_with_progress(curve, tolerance, nullptr, nullptr, out);
 }
 
 mimicry_status mimicry_curve_close(const mimicry_curve* curve, mimicry_curve** out) {

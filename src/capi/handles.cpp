@@ -26,6 +26,13 @@ mimicry_status fail(mimicry_status status, const char* message) noexcept {
   return status;
 }
 
+ProgressCallback to_callback(mimicry_progress progress, void* user) {
+  if (!progress) return {};
+  return [progress, user](const Progress& p) {
+    return progress(user, std::string(p.stage).c_str(), p.fraction) != 0;
+  };
+}
+
 Similarity to_similarity(const mimicry_similarity* similarity) {
   require(similarity, "model_to_world");
   stroke::Stroke placed;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/parallel.h>
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/mimicry.h>
@@ -114,6 +115,9 @@ inline std::string_view content(const void* data, std::size_t size) {
   if (size > 0) require(data, "data");
   return {static_cast<const char*>(data), size};
 }
+
+/// A caller's progress callback, which may be null.
+ProgressCallback to_callback(mimicry_progress progress, void* user);
 
 /// Throws where it is not finite, no unit rotation, or the scale is not positive.
 Similarity to_similarity(const mimicry_similarity* similarity);

@@ -13,6 +13,8 @@
 namespace mimicry::curve {
 namespace {
 
+constexpr std::size_t kReportEvery = 16;  // points: some milliseconds where paths are long
+
 bool on_surface(const Piece& piece) {
   return piece.kind != PieceKind::gap && piece.kind != PieceKind::chord;
 }
@@ -69,13 +71,14 @@ Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& 
 
 ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
                       const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                      const SmoothOptions& options) {
+                      const SmoothOptions& options, const ProgressCallback& progress) {
   if (!(options.strength >= 0.0 && options.strength <= 1.0))
     throw Error(ErrorKind::invalid_input,
                 "smoothing: strength " + std::to_string(options.strength) + " is not in 0 to 1");
-  if (options.iterations < 0)
+  if (options.iterations < 0 || options.iterations > SmoothOptions::kMostIterations)
     throw Error(ErrorKind::invalid_input,
-                "smoothing: " + std::to_string(options.iterations) + " iterations; 0 or more");
+                "smoothing: " + std::to_string(options.iterations) + " iterations; 0 to " +
+                    std::to_string(SmoothOptions::kMostIterations) + " are possible");
   if (options.strength == 0.0) return curve;
 
   geodesic::LocalPathFinder paths(mesh, half_edges);
@@ -94,6 +97,8 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     moved = smoothed.points;
     for (std::size_t i = 0; i + 1 < count; ++i) {
+      if (i % kReportEvery == 0)
+        report(progress, "smooth", (iteration + double(i) / double(count)) / options.iterations);
       const bool joint = i == 0 && smoothed.closed;
       if (i == 0 && !joint) continue;
       const std::size_t before = joint ? count - 2 : i - 1;
@@ -127,7 +132,8 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
 }
 
 ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                        const HalfEdges& half_edges, double tolerance) {
+                        const HalfEdges& half_edges, double tolerance,
+                        const ProgressCallback& progress) {
   if (!(tolerance >= 0.0 && tolerance < kInfinity))
     throw Error(ErrorKind::invalid_input, "simplifying: tolerance " + std::to_string(tolerance) +
                                               " is not a length of 0 or more");
@@ -148,12 +154,14 @@ ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
     const auto [begin, end] = runs.back();
     runs.pop_back();
     if (end - begin < 2) continue;
+    report(progress, "simplify", double(begin) / double(count));
     crossings.clear();
     paths.find(curve.points[begin].surface, curve.points[end].surface, crossings);
     polyline_to(mesh, curve.points[begin], crossings, curve.points[end], polyline);
     std::size_t farthest = begin;
     double most = tolerance * tolerance;
     for (std::size_t i = begin + 1; i < end; ++i) {
+      if (i % kReportEvery == 0) report(progress, "simplify", double(begin) / double(count));
       const double distance = squared_distance(curve.points[i].position, polyline);
       if (distance > most) farthest = i, most = distance;
     }

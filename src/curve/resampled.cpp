@@ -31,11 +31,12 @@ ProjectedCurve slice(const ProjectedCurve& curve, std::size_t first, std::size_t
 
 ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
                          const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                         std::size_t count) {
-  if (count < 2 || curve.points.empty())
+                         std::size_t count, const ProgressCallback& progress) {
+  if (count < 2 || count > kMostResampledPoints || curve.points.empty())
     throw Error(ErrorKind::invalid_input, "a curve of " + std::to_string(curve.points.size()) +
                                               " points cannot be resampled to " +
-                                              std::to_string(count) + "; it takes 2 or more");
+                                              std::to_string(count) + "; it takes 2 to " +
+                                              std::to_string(kMostResampledPoints));
   const RefinedCurve refined = refine(curve, mesh, half_edges);
   std::vector<double> lengths;  // at each point
   for (const std::size_t node : refined.point_nodes) lengths.push_back(refined.nodes[node].length);
@@ -46,6 +47,7 @@ ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
   std::size_t before = 0;  // the last point at or before the sample
   const std::vector<SurfacePoint> samples = resample(curve, mesh, half_edges, count);
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % 64 == 0) report(progress, "resample", double(i) / double(count));
     const double s = i + 1 == count ? lengths.back() : step * static_cast<double>(i);
     const std::size_t last = before;
     while (before + 1 < lengths.size() && lengths[before + 1] <= s) ++before;

@@ -188,6 +188,67 @@ TEST(CApi, EditsLeaveTheCurveAndMakeAnother) {
   EXPECT_EQ(mimicry_curve_length(curve.get()), length);
 }
 
+TEST(CApi, LongEditsCanBeCancelledAndAreBounded) {
+  const Target target = target_of("sphere");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "snap");
+  const auto frames = wave(60);
+  const auto curve =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  struct Heard {
+    int calls = 0, most = 0;
+    double last = 0.0;
+    bool ordered = true;
+  };
+  // Cancels after `most` calls.
+  const mimicry_progress hear = [](void* user, const char* stage, double fraction) -> int32_t {
+    auto& h = *static_cast<Heard*>(user);
+    h.ordered = h.ordered && fraction >= 0.0 && fraction <= 1.0 && stage[0] != 0;
+    h.last = fraction;
+    return ++h.calls <= h.most ? 1 : 0;
+  };
+  const auto each = [&](auto&& edit) {
+    Heard all;
+    all.most = 1 << 30;
+    mimicry_curve* made = nullptr;
+    EXPECT_EQ(edit(hear, &all, &made), MIMICRY_OK) << mimicry_last_error();
+    EXPECT_NE(made, nullptr);
+    EXPECT_GT(all.calls, 1);
+    EXPECT_TRUE(all.ordered);
+    mimicry_curve_destroy(made);
+    for (const int most : {0, 1, all.calls - 1}) {
+      Heard some;
+      some.most = most;
+      EXPECT_EQ(edit(hear, &some, &made), MIMICRY_CANCELLED);
+      EXPECT_EQ(made, nullptr);
+      EXPECT_EQ(some.calls, most + 1);  // not asked again
+    }
+  };
+  each([&](auto progress, void* user, mimicry_curve** out) {
+    return mimicry_curve_smooth_with_progress(curve.get(), 0.5, 9, progress, user, out);
+  });
+  each([&](auto progress, void* user, mimicry_curve** out) {
+    return mimicry_curve_simplify_with_progress(curve.get(), 1e-6, progress, user, out);
+  });
+  each([&](auto progress, void* user, mimicry_curve** out) {
+    return mimicry_curve_resample_with_progress(curve.get(), 500, progress, user, out);
+  });
+  // What would never end is an error.
+  mimicry_curve* out = nullptr;
+  EXPECT_EQ(mimicry_curve_smooth(curve.get(), 0.5, INT32_MAX, &out), MIMICRY_INVALID_INPUT);
+  EXPECT_NE(std::string(mimicry_last_error()).find("100000"), std::string::npos);
+  EXPECT_EQ(mimicry_curve_resample(curve.get(), SIZE_MAX, &out), MIMICRY_INVALID_INPUT);
+  EXPECT_NE(std::string(mimicry_last_error()).find("10000000"), std::string::npos);
+}
+
+TEST(CApi, ThreadsOfABakeAreBounded) {
+  const auto mesh = make<Mesh>(mimicry_mesh_shape, "sphere", 4);
+  mimicry_bake_options options = mimicry_default_bake_options();
+  options.threads = 257;
+  mimicry_bytes* out = nullptr;
+  EXPECT_EQ(mimicry_bake(mesh.get(), &options, nullptr, nullptr, &out), MIMICRY_INVALID_INPUT);
+  EXPECT_NE(std::string(mimicry_last_error()).find("256"), std::string::npos);
+}
+
 TEST(CApi, FilesComeBack) {
   const Target target = target_of("cube");
   const auto session = make<Session>(mimicry_session_create, target.get(), "mimicry-live");

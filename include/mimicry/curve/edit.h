@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include <mimicry/base/parallel.h>
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/geodesic/local_path.h>
 #include <mimicry/mesh/half_edges.h>
@@ -22,7 +23,8 @@ Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& 
 
 struct SmoothOptions {
   double strength = 0.5;  ///< 0 to 1: how far a point moves; 0 changes nothing
-  int iterations = 1;     ///< >= 0
+  int iterations = 1;     ///< 0 to kMostIterations
+  static constexpr int kMostIterations = 100'000;
 };
 
 /// The curve with its points evened out, on the surface. In each iteration all points move at once,
@@ -31,29 +33,35 @@ struct SmoothOptions {
 /// (farther would mirror it), 0 none. A curve that is a geodesic stays. Ends of the curve and at
 /// gaps and chords stay; a closed curve has none. Points keep frame, time and pen distance;
 /// vertex_normals (#V by 3, unit) give their new normals. Throws Error(invalid_input) for options
-/// out of range. Three paths a point and iteration.
+/// out of range. Three paths a point and iteration. progress hears of every few points, stage
+/// "smooth"; where it returns false Error(cancelled) is thrown.
 ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
                       const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                      const SmoothOptions& options);
+                      const SmoothOptions& options, const ProgressCallback& progress = {});
 
 /// The curve with fewer points (Douglas and Peucker 1973, on geodesics): a point goes where it, and
 /// all others that go with it, lie within `tolerance` (model units, in space) of the geodesic that
 /// takes their place. Ends of the curve and at gaps and chords stay. Throws Error(invalid_input)
-/// for a tolerance below 0 or not finite. O(points log points) paths as a rule.
+/// for a tolerance below 0 or not finite. O(points log points) paths as a rule, and at worst the
+/// square of the points. progress as in `smooth`, stage "simplify".
 ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                        const HalfEdges& half_edges, double tolerance);
+                        const HalfEdges& half_edges, double tolerance,
+                        const ProgressCallback& progress = {});
 
 /// The open curve of points [first, end), with all that joins them. Throws Error(invalid_input)
 /// where that is not a range of at least one point. O(its points and crossings).
 ProjectedCurve slice(const ProjectedCurve& curve, std::size_t first, std::size_t end);
 
-/// The curve as `count` points at equal steps of length (`resample`), joined by shortest paths;
-/// broken where a gap lies between two of them. Times and pen distances are interpolated, a point's
-/// frame is that of the last point before it. vertex_normals: #V by 3, unit. Throws
-/// Error(invalid_input) for a count below 2 or a curve without points. O(points + crossings) and
-/// a path a point.
+/// More points than this are a mistake: a gigabyte and more.
+inline constexpr std::size_t kMostResampledPoints = 10'000'000;
+
+/// The curve as `count` points, 2 to kMostResampledPoints, at equal steps of length (`resample`),
+/// joined by shortest paths; broken where a gap lies between two of them. Times and pen distances
+/// are interpolated, a point's frame is that of the last point before it. vertex_normals: #V by 3,
+/// unit. Throws Error(invalid_input) for a count out of range or a curve without points. O(points +
+/// crossings) and a path a point. progress as in `smooth`, stage "resample".
 ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
                          const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                         std::size_t count);
+                         std::size_t count, const ProgressCallback& progress = {});
 
 }  // namespace mimicry::curve
