@@ -30,6 +30,14 @@ bool occluded_in(RTCScene scene, const Vec3f& origin, const Vec3f& direction, fl
   return ray.tfar < 0.0F;
 }
 
+// One thread: pictures spread their own threads over tiles, and builds of this size are short.
+// There is one for the program's life. Where the last one goes its scheduler starts threads that
+// nobody needs, and ends the program if the system has none to give.
+RTCDevice device() {
+  static RTCDevice const kept = rtcNewDevice("threads=1,set_affinity=0");
+  return kept;
+}
+
 /// Points nearer than this fraction of the radius make no visible difference, and joints between
 /// them would be rounding noise.
 constexpr float kMinStep = 0.02F;
@@ -63,12 +71,11 @@ RayScene::RayScene(const Scene& scene) {
   });
   floor_ = static_cast<float>(lowest * scale_);
 
-  // One thread: pictures spread their own threads over tiles, and builds of this size are short.
-  device_.reset(rtcNewDevice("threads=1,set_affinity=0"));
-  if (!device_) throw Error(ErrorKind::unsupported, "Embree: the device cannot be made here");
-  all_.reset(rtcNewScene(device_.get()));
-  surfaces_.reset(rtcNewScene(device_.get()));
-  tubes_.reset(rtcNewScene(device_.get()));
+  if (!device()) throw Error(ErrorKind::unsupported, "Embree: the device cannot be made here");
+  (void)rtcGetDeviceError(device());  // of a scene that was given up
+  all_.reset(rtcNewScene(device()));
+  surfaces_.reset(rtcNewScene(device()));
+  tubes_.reset(rtcNewScene(device()));
   for (RTCScene s : {all_.get(), surfaces_.get(), tubes_.get()}) {
     rtcSetSceneBuildQuality(s, RTC_BUILD_QUALITY_HIGH);
     rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
@@ -77,7 +84,7 @@ RayScene::RayScene(const Scene& scene) {
   for (std::uint32_t s = 0; s < surface_count_; ++s) add(scene.surfaces[s], s);
   for (std::uint32_t t = 0; t < scene.tubes.size(); ++t) add(scene.tubes[t], surface_count_ + t);
   for (RTCScene s : {all_.get(), surfaces_.get(), tubes_.get()}) rtcCommitScene(s);
-  if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE) {
+  if (const RTCError error = rtcGetDeviceError(device()); error != RTC_ERROR_NONE) {
     throw Error(ErrorKind::unsupported,
                 "Embree: the scene cannot be built, error " + std::to_string(error));
   }
@@ -93,7 +100,7 @@ void RayScene::attach(RTCGeometry geometry, std::uint32_t id, RTCScene own) {
 void RayScene::add(const Surface& surface, std::uint32_t number) {
   const TriangleMesh& mesh = *surface.mesh;
   if (mesh.face_count() == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                               3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
@@ -129,7 +136,7 @@ void RayScene::add(const Tube& tube, std::uint32_t number) {
   const bool ball = points.size() == 1;
   tangents_.push_back(tangents(points));
   RTCGeometry geometry = rtcNewGeometry(
-      device_.get(), ball ? RTC_GEOMETRY_TYPE_SPHERE_POINT : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+      device(), ball ? RTC_GEOMETRY_TYPE_SPHERE_POINT : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), points.size()));
   if (vertices == nullptr) throw std::bad_alloc();

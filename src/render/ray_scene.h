@@ -48,10 +48,8 @@ class RayScene {
 
  private:
   struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
-  using Device = std::unique_ptr<RTCDeviceTy, Release>;
   using Geometry = std::unique_ptr<RTCSceneTy, Release>;
 
   void add(const Surface& surface, std::uint32_t number);
@@ -65,7 +63,6 @@ class RayScene {
   float floor_ = 0.0F;
   std::uint32_t surface_count_ = 0;
   std::vector<std::vector<Vec3f>> tangents_;  // per tube, per point that is kept
-  Device device_;
   Geometry all_, surfaces_, tubes_;
 };
 

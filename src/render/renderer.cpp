@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <thread>
 
+#include <mimicry/base/parallel.h>
 #include <mimicry/render/renderer.h>
 
 #include "render/checks.h"
@@ -57,7 +57,7 @@ void check(const RenderOptions& options) {
   require(options.height, 1, 16384, "the height");
   require(options.samples, 1, 1024, "the number of samples");
   require(options.ao_samples, 0, 64, "the number of occlusion samples");
-  require(options.threads, 0, 1024, "the number of threads");
+  require(options.threads, 0, kMostThreads, "the number of threads");
   require(options.ground, 0.0, 1.0, "the darkness of the ground");
   require(options.ghost, 0.0, 1.0, "the opacity of hidden tubes");
   require(options.crease_deg, 0.0, 180.0, "the crease angle");
@@ -328,18 +328,14 @@ Pixel Renderer::pixel(int x, int y) const {
   return pixel;
 }
 
-/// Runs body(i) for i in 0..count-1 on some threads, each inside an `EmbreeScope`; the body must
-/// not throw.
+/// Runs body(i) for i in first..end-1, each inside an `EmbreeScope`.
 template <typename Body>
-void for_each(int first, int end, int threads, const Body& body) {
-  std::atomic<int> next{first};
-  const auto work = [&] {
+void for_each(Executor& executor, int first, int end, const Body& body) {
+  const auto count = static_cast<std::size_t>(std::max(0, end - first));
+  executor.for_chunks(count, 1, [&](std::size_t i, std::size_t, int) {
     const EmbreeScope scope;
-    for (int i = next++; i < end; i = next++) body(i);
-  };
-  std::vector<std::jthread> helpers;
-  for (int t = 1; t < std::min(threads, end - first); ++t) helpers.emplace_back(work);
-  work();
+    body(first + static_cast<int>(i));
+  });
 }
 
 }  // namespace
@@ -349,7 +345,7 @@ Image render(const Scene& scene, const Camera& camera, const RenderOptions& opti
   check(camera);
   check(options);
   const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int threads = options.threads > 0 ? options.threads : hardware;
+  Executor executor(options.threads > 0 ? options.threads : hardware);
   const int width = options.width;
   const int height = options.height;
 
@@ -362,13 +358,13 @@ Image render(const Scene& scene, const Camera& camera, const RenderOptions& opti
   int colored = 0;
   for (int band = 0; band < height; band += kBand) {
     const int band_end = std::min(height, band + kBand);
-    for_each(band, band_end, threads, [&](int y) {
+    for_each(executor, band, band_end, [&](int y) {
       std::vector<Pixel>& row = rows[static_cast<std::size_t>(y)];
       row.resize(static_cast<std::size_t>(width));
       for (int x = 0; x < width; ++x) row[static_cast<std::size_t>(x)] = renderer.pixel(x, y);
     });
     const int ready = band_end == height ? height : band_end - kSmoothingReach;
-    for_each(colored, ready, threads, [&](int y) {
+    for_each(executor, colored, ready, [&](int y) {
       for (int x = 0; x < width; ++x) {
         const Vec3f color = smoothed_color(rows, x, y);
         assert(color.allFinite());
