@@ -236,10 +236,21 @@ class LsMeshStage {
 }  // namespace
 
 Embedding bake(const TriangleMesh& given, const BakeOptions& options, int threads,
-               const ProgressCallback& progress) {
+               const ProgressCallback& caller) {
   check(options);
   const TriangleMesh mesh = connect(given).mesh;
   Executor executor(threads);
+  // Stages tell how far they are; long loops say it again, so that they can be cancelled.
+  std::string stage = "shell";
+  double fraction = 0.0;
+  const ProgressCallback progress = [&](const Progress& now) {
+    stage = now.stage;
+    fraction = now.fraction;
+    return !caller || caller(now);
+  };
+  executor.set_between([&, chunks = 0U]() mutable {
+    if (++chunks % 16 == 0) report(caller, stage, fraction);
+  });
   const UnitMesh unit = make_unit_mesh(mesh, grid_half_side(options.offset));
 
   Embedding out;

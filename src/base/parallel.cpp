@@ -28,6 +28,8 @@ struct Executor::State {
   std::size_t busy = 0;
   bool stop = false;
 
+  std::function<void()> between;
+
   // The loop under way.
   const std::function<void(std::size_t, std::size_t, int)>* body = nullptr;
   std::size_t count = 0;
@@ -43,6 +45,7 @@ struct Executor::State {
       if (begin >= count) return;
       try {
         (*body)(begin, std::min(begin + chunk, count), worker);
+        if (worker == 0 && between) between();
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!error || begin < error_chunk) {
@@ -99,12 +102,18 @@ int Executor::threads() const {
   return static_cast<int>(state_->pool.size()) + 1;
 }
 
+void Executor::set_between(std::function<void()> between) {
+  state_->between = std::move(between);
+}
+
 void Executor::for_chunks(std::size_t count, std::size_t chunk,
                           const std::function<void(std::size_t, std::size_t, int)>& body) {
   chunk = std::max<std::size_t>(chunk, 1);
   if (state_->pool.empty() || count <= chunk) {
-    for (std::size_t begin = 0; begin < count; begin += chunk)
+    for (std::size_t begin = 0; begin < count; begin += chunk) {
       body(begin, std::min(begin + chunk, count), 0);
+      if (state_->between) state_->between();
+    }
     return;
   }
   State& s = *state_;

@@ -1,6 +1,8 @@
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -46,6 +48,29 @@ TEST(Executor, HandsOnExceptionsAndLivesOn) {
     std::atomic<int> count = 0;
     executor.for_chunks(10, 1, [&](std::size_t, std::size_t, int) { ++count; });
     EXPECT_EQ(count, 10);
+  }
+}
+
+TEST(Executor, LoopsEndWhereTheirThreadIsToldSoBetweenChunks) {
+  const std::thread::id caller = std::this_thread::get_id();
+  for (const int threads : {1, 3}) {
+    Executor executor(threads);
+    int asked = 0;
+    executor.set_between([&] {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      if (++asked == 3) throw Error(ErrorKind::cancelled, "enough");
+    });
+    std::atomic<int> count = 0;
+    // The other threads leave work for the caller.
+    const auto slowly = [&](std::size_t, std::size_t, int worker) {
+      ++count;
+      if (worker != 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    EXPECT_THROW(executor.for_chunks(100'000, 1, slowly), Error);
+    EXPECT_EQ(asked, 3);
+    EXPECT_LT(count, 100'000);
+    executor.set_between({});
+    EXPECT_NO_THROW(executor.for_chunks(10, 1, slowly));
   }
 }
 

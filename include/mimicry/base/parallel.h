@@ -32,6 +32,10 @@ class Executor {
   void for_chunks(std::size_t count, std::size_t chunk,
                   const std::function<void(std::size_t, std::size_t, int)>& body);
 
+  /// Called in the thread that runs a loop, after each chunk that this thread has done; what it
+  /// throws ends the loop as the exception of a chunk does. For work that can be cancelled.
+  void set_between(std::function<void()> between);
+
  private:
   struct State;
   std::unique_ptr<State> state_;
