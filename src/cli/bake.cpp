@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/embedding_file.h>
 
 #include "cli/commands.h"
@@ -44,6 +45,7 @@ class StageTimes {
 };
 
 void run_bake(const BakeArguments& args) {
+  const auto output_lock = files::OutputLock::of_file(args.out);
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.target);
   StageTimes times;

@@ -14,6 +14,8 @@
 #include <mimicry/files/file.h>
 #include <mimicry/io/embedding_file.h>
 
+#include "cli/console.h"
+
 namespace mimicry::cli {
 namespace {
 
@@ -36,6 +38,19 @@ std::string file_name(std::uint64_t mesh_hash, const embedding::BakeOptions& o) 
                 static_cast<unsigned long long>(offset), bake::kRevision, io::kEmbeddingFileVersion,
                 kEnding);
   return name;
+}
+
+// Before a bake that may take minutes: what stands at the cache's place can be one.
+void require_place(const fs::path& file) {
+  std::error_code none;
+  const fs::path folder = file.parent_path();
+  const auto refuse = [](const fs::path& path, const char* what) {
+    throw Error(ErrorKind::io, path.string() + ": is " + what +
+                                   " where bakes are kept; remove it, set MIMICRY_CACHE to another "
+                                   "folder or empty, or pass --no-cache");
+  };
+  if (fs::exists(folder, none) && !fs::is_directory(folder, none)) refuse(folder, "no folder");
+  if (fs::exists(file, none) && !fs::is_regular_file(file, none)) refuse(file, "no plain file");
 }
 
 void touch(const fs::path& file) {
@@ -89,11 +104,12 @@ std::optional<embedding::Embedding> BakeCache::find(const TriangleMesh& mesh,
   if (folder_.empty()) return std::nullopt;
   const std::uint64_t hash = embedding::content_hash(mesh);
   const fs::path path = fs::path(folder_) / file_name(hash, options);
+  require_place(path);
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return std::nullopt;
   try {
-    embedding::Embedding e =
-        io::read_embedding(files::MappedFile(path.string()).bytes(), path.string());
+    embedding::Embedding e = io::read_embedding(
+        files::MappedFile(path.string(), files::Accept::regular).bytes(), path.string());
     const bool is_it = e.mesh_hash == hash && e.mesh_vertex_count == mesh.vertex_count() &&
                        e.face_count() == mesh.face_count() &&
                        e.options.dimension == options.dimension &&
@@ -115,7 +131,7 @@ void BakeCache::keep(const embedding::Embedding& e) const {
     files::write_file_atomically(path.string(), io::write_embedding(e));
     shrink(folder_);
   } catch (const Error& error) {
-    std::fprintf(stderr, "mimicry: the bake is not kept for the next time: %s\n", error.what());
+    complain("the bake is not kept for the next time: " + std::string(error.what()));
   }
 }
 

@@ -81,7 +81,7 @@ void run_compare(CompareArguments args) {
     if (!args.json) print_group(group, comparisons.back(), args);
   }
   if (args.json)
-    std::printf("%s\n", to_json(a, b, groups, comparisons).dump(2).c_str());
+    std::printf("%s\n", json_text(to_json(a, b, groups, comparisons)).c_str());
   else if (agreement.rows > 0)
     std::printf("Beside the paper's table: %s.\n", agreement.text().c_str());
 }

@@ -5,6 +5,8 @@
 
 #include <unistd.h>
 
+#include "cli/interrupt.h"
+
 namespace mimicry::cli {
 
 namespace {
@@ -16,6 +18,29 @@ bool is_number(const std::string& cell) {
 }
 
 }  // namespace
+
+std::string json_text(const nlohmann::ordered_json& value, int indent) {
+  return value.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string printable(std::string_view text) {
+  // JSON's writer knows what UTF-8 is.
+  std::string valid = nlohmann::json::parse(json_text(std::string(text))).get<std::string>();
+  std::string shown;
+  for (const char c : valid) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool steers = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+    if (steers)
+      shown += "\xEF\xBF\xBD";
+    else
+      shown += c;
+  }
+  return shown;
+}
+
+void complain(std::string_view sentence) {
+  std::fprintf(stderr, "mimicry: %s\n", printable(sentence).c_str());
+}
 
 void print_table(const std::vector<std::string>& headings,
                  const std::vector<std::vector<std::string>>& rows) {
@@ -54,6 +79,7 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::update(std::size_t done, std::size_t total) {
+  end_if_requested();
   const int percent = total == 0 ? 100 : static_cast<int>(100 * done / total);
   if (!terminal_ || percent == last_percent_) return;
   last_percent_ = percent;

@@ -12,13 +12,12 @@
 
 #include "cli/bake_cache.h"
 #include "cli/console.h"
-#include "cli/interrupt.h"
 
 namespace mimicry::cli {
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "0: as many as the machine has")
-      ->check(CLI::Range(0, 256))
+  command.add_option("--threads", threads, "At most; 0: as many as the machine has")
+      ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
 }
 
@@ -29,20 +28,20 @@ void add_cache_option(CLI::App& command, BakeSettings& settings) {
 }
 
 int thread_count(int threads) {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int hardware = static_cast<int>(std::thread::hardware_concurrency());
+  return std::clamp(threads > 0 ? threads : hardware, 1, kMostThreads);
 }
 
 Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings,
                 const ProgressCallback& progress) {
   const BakeCache cache = settings.use_cache ? BakeCache::of_user() : BakeCache();
   if (auto kept = cache.find(mesh, settings.options)) return {std::move(*kept), true};
-  const InterruptWatch watch;
   ProgressLine line("baking");
   Baked baked;
   baked.embedding =
       bake::bake(mesh, settings.options, thread_count(settings.threads), [&](const Progress& now) {
         line.update(static_cast<std::size_t>(100 * now.fraction), 100);
-        return (!progress || progress(now)) && !watch.interrupted();
+        return !progress || progress(now);
       });
   cache.keep(baked.embedding);
   return baked;

@@ -21,7 +21,7 @@ struct BakeSettings {
 void add_threads_option(CLI::App& command, int& threads);
 /// --no-cache.
 void add_cache_option(CLI::App& command, BakeSettings& settings);
-/// `threads`, or as many as the machine has for 0.
+/// `threads`, or as many as the machine has for 0; never more than kMostThreads.
 int thread_count(int threads);
 
 struct Baked {

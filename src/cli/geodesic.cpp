@@ -102,7 +102,7 @@ std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesi
       {"format", "mimicry-path"},   {"version", 1},
       {"length", path.length},      {"from", point_json(sources[path.source].point, mesh)},
       {"to", point_json(to, mesh)}, {"crossings", crossings}};
-  return document.dump(1) + "\n";
+  return json_text(document, 1) + "\n";
 }
 
 // Of the file's vertices; of one that became several the nearest counts.
@@ -150,10 +150,9 @@ void run_geodesic(const GeodesicArguments& args, int& status) {
   if (to) options.targets = {&*to, 1};
   geodesics.compute(sources, options);
   if (!geodesics.exact()) {
-    std::fprintf(stderr,
-                 "mimicry: %s: too many windows; the search gave up, and distances are upper "
-                 "bounds; repair the mesh or give --radius\n",
-                 named.name.c_str());
+    complain(named.name +
+             ": too many windows; the search gave up, and distances are upper bounds; repair the "
+             "mesh or give --radius");
     status = kPartly;
   }
   if (!to) {

@@ -182,7 +182,7 @@ void run_info(const InfoArguments& args, int& status) {
   if (args.json)
     std::printf(
         "%s\n",
-        report_json(named.name, report, surface, connected.report, refusal).dump(2).c_str());
+        json_text(report_json(named.name, report, surface, connected.report, refusal)).c_str());
   else
     print_report(named.name, report, surface, connected.report, refusal);
 }

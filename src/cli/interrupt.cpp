@@ -1,28 +1,79 @@
 #include "cli/interrupt.h"
 
+#include <array>
+#include <atomic>
 #include <csignal>
+#include <string_view>
+
+#include <unistd.h>
+
+#include <mimicry/base/error.h>
+#include <mimicry/files/file.h>
+
+#include "cli/commands.h"
 
 namespace mimicry::cli {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;
+// Signal handlers can reach no other state than the program's own.
+std::atomic<bool> requested{false};
+std::atomic<pid_t> child{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
 
-void note(int) {
-  noted = 1;
+constexpr unsigned kOrderly_s = 1;
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+
+[[noreturn]] void end_now() {
+  if (const pid_t running = child; running > 0) ::kill(running, SIGKILL);
+  files::remove_unfinished();
+  constexpr std::string_view kMessage = "mimicry: interrupted\n";
+  (void)!::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  ::_exit(kCancelled);
+}
+
+// Both call only what is safe in a signal handler.
+void on_request(int) {
+  if (requested.exchange(true)) end_now();
+  ::alarm(kOrderly_s);
+}
+
+void on_alarm(int) {
+  end_now();
 }
 
 }  // namespace
 
-InterruptWatch::InterruptWatch()
-    : before_interrupt_(std::signal(SIGINT, note)), before_terminate_(std::signal(SIGTERM, note)) {}
-
-InterruptWatch::~InterruptWatch() {
-  std::signal(SIGINT, before_interrupt_);
-  std::signal(SIGTERM, before_terminate_);
+void catch_signals() {
+  struct sigaction action = {};
+  sigemptyset(&action.sa_mask);
+  for (const int signal : kSignals) sigaddset(&action.sa_mask, signal);
+  sigaddset(&action.sa_mask, SIGALRM);
+  action.sa_flags = SA_RESTART;
+  action.sa_handler = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
+  action.sa_handler = on_request;
+  for (const int signal : kSignals) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    // A program under nohup outlives its terminal.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
+  // Whoever started us may have held them back.
+  sigprocmask(SIG_UNBLOCK, &action.sa_mask, nullptr);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
-bool InterruptWatch::interrupted() const {
-  return noted != 0;
+bool end_requested() {
+  return requested;
+}
+
+void end_if_requested() {
+  if (end_requested()) throw Error(ErrorKind::cancelled, "interrupted");
+}
+
+void set_child(pid_t running) {
+  child = running;
 }
 
 }  // namespace mimicry::cli

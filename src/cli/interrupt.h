@@ -1,21 +1,22 @@
 #pragma once
 
+#include <sys/types.h>
+
 namespace mimicry::cli {
 
-/// While one of these lives, Ctrl-C and a request to end (SIGINT, SIGTERM) are only noted, so that
-/// long work can stop between two steps and leave nothing behind. What the signals did before comes
-/// back at the end.
-class InterruptWatch {
- public:
-  InterruptWatch();
-  ~InterruptWatch();
-  InterruptWatch(const InterruptWatch&) = delete;
-  InterruptWatch& operator=(const InterruptWatch&) = delete;
-  bool interrupted() const;
+/// From here on Ctrl-C, a request to end and the end of the terminal (SIGINT, SIGTERM, SIGHUP) end
+/// the program within about a second: long work asks `end_if_requested` and stops orderly; what does
+/// not ask, or takes too long, is ended where it is, and unfinished files are removed. A second
+/// signal ends it at once. A pipe that nobody reads any more, or a file that would grow over a
+/// limit, is an error of the write and not the end of the program.
+void catch_signals();
 
- private:
-  void (*before_interrupt_)(int);
-  void (*before_terminate_)(int);
-};
+/// Whether the program was asked to end.
+bool end_requested();
+/// Throws Error(cancelled) where it was.
+void end_if_requested();
+
+/// A program that we wait for: it is ended with us. 0: none.
+void set_child(pid_t child);
 
 }  // namespace mimicry::cli

@@ -47,7 +47,7 @@ void run_keypoints(const KeypointsArguments& args) {
                     std::to_string(found.size()), list});
   }
   if (args.json)
-    std::printf("%s\n", nlohmann::ordered_json{{"curves", curves}}.dump().c_str());
+    std::printf("%s\n", json_text({{"curves", curves}}, -1).c_str());
   else
     print_table({"curve", "points", "keypoints", "numbers of points"}, rows);
 }

@@ -1,22 +1,52 @@
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <sstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <mimicry/base/error.h>
 
 #include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/interrupt.h"
 
 namespace {
 
+using namespace mimicry::cli;
+
 int exit_code_of(mimicry::ErrorKind kind) {
-  if (kind == mimicry::ErrorKind::cancelled) return mimicry::cli::kCancelled;
-  return kind == mimicry::ErrorKind::io ? mimicry::cli::kFileTrouble : mimicry::cli::kBadInput;
+  if (kind == mimicry::ErrorKind::cancelled) return kCancelled;
+  return kind == mimicry::ErrorKind::io ? kFileTrouble : kBadInput;
+}
+
+// Where a standard stream is closed, the next file that is opened would take its place and get what
+// is printed. What stands there instead cannot be written to.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) (void)::open("/dev/null", O_RDONLY);
+}
+
+// The status, or that what was printed did not arrive.
+int status_after_printing(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  // Whoever read has enough: no news for them.
+  pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+  if (::poll(&reader, 1, 0) != 1 || (reader.revents & POLLERR) == 0)
+    complain("standard output cannot be written to; give it room");
+  return kFileTrouble;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace mimicry::cli;
+  catch_signals();
+  hold_standard_streams();
   CLI::App app("Turns strokes drawn in mid-air into the curves that were meant on a surface.",
                "mimicry");
   app.set_version_flag("--version", MIMICRY_VERSION);
@@ -46,21 +76,24 @@ int main(int argc, char** argv) {
   add_replay(app, status);
   try {
     app.parse(argc, argv);
-    if (std::fflush(stdout) != 0) {
-      std::fprintf(stderr, "mimicry: standard output cannot be written to\n");
-      return kFileTrouble;
-    }
-    return status;
+    return status_after_printing(status);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    std::ostringstream help, fault;
+    const bool done = app.exit(error, help, fault) == 0;
+    std::fputs(help.str().c_str(), stdout);
+    std::fputs(printable(fault.str()).c_str(), stderr);
+    return status_after_printing(done ? kDone : kUsage);
   } catch (const mimicry::Error& error) {
-    std::fprintf(stderr, "mimicry: %s\n", error.what());
+    complain(error.what());
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "mimicry: out of memory\n");
+    complain("out of memory");
     return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    complain(std::string(error.what()) + "; check the path, the rights and the room left");
+    return kFileTrouble;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "mimicry: unexpected failure: %s\n", error.what());
+    complain("unexpected failure: " + std::string(error.what()));
     return kBug;
   }
 }

@@ -8,17 +8,18 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/measure_cells.h>
 #include <mimicry/study/keypoints.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/embedding_input.h"
 #include "cli/mesh_input.h"
 #include "cli/participant.h"
 #include "cli/target_curves.h"
@@ -33,7 +34,7 @@ struct MeasureArguments {
   std::string out;
   bool all = false;
   bool per_piece = false;
-  int threads = 0;  // 0: as many as the machine has
+  int threads = 0;
 };
 
 // A shape of the study, or why there is none.
@@ -233,10 +234,11 @@ void print_rejected(const Rejected& r) {
   std::string where = r.participant;
   if (r.shape != kNone) where += "/" + recording_name(r.method, r.shape);
   if (r.index) where += ": stroke " + std::to_string(*r.index);
-  std::fprintf(stderr, "mimicry: left out: %s: %s\n", where.c_str(), r.reason.c_str());
+  complain("left out: " + where + ": " + r.reason);
 }
 
 void run_measure(const MeasureArguments& args, int& status) {
+  const auto output_lock = files::OutputLock::of_file(args.out);
   std::vector<Rejected> rejected;
   std::vector<Participant> participants;
   for (const std::string& folder : args.folders) try {
@@ -258,9 +260,7 @@ void run_measure(const MeasureArguments& args, int& status) {
     ProgressLine progress("measuring");
     std::mutex lock;
     std::size_t done = 0;
-    const int threads =
-        args.threads > 0 ? args.threads : static_cast<int>(std::thread::hardware_concurrency());
-    parallel_for(jobs.size(), threads, [&](std::size_t i) {
+    parallel_for(jobs.size(), thread_count(args.threads), [&](std::size_t i) {
       outcomes[i] = measurer.run(jobs[i]);
       const std::lock_guard guard(lock);
       progress.update(++done, jobs.size());
@@ -274,8 +274,7 @@ void run_measure(const MeasureArguments& args, int& status) {
     measured += outcome.measured;
     failed += outcome.failed_filters;
     rejected.insert(rejected.end(), outcome.rejected.begin(), outcome.rejected.end());
-    for (const std::string& note : outcome.notes)
-      std::fprintf(stderr, "mimicry: %s\n", note.c_str());
+    for (const std::string& note : outcome.notes) complain(note);
   }
   for (const Rejected& r : rejected) print_rejected(r);
   files::write_file_atomically(args.out, rows);
@@ -302,8 +301,7 @@ void add_measure(CLI::App& app, int& status) {
   command->add_flag("--all", args->all, "More measures, and the participant, in further columns");
   command->add_flag("--per-piece", args->per_piece,
                     "K_E, K_g and F_g are sums over the pieces; what joins them does not count");
-  command->add_option("--threads", args->threads, "Default: as many as the machine has")
-      ->check(CLI::Range(1, 1024));
+  add_threads_option(*command, args->threads);
   command->callback([args, &status] { run_measure(*args, status); });
 }
 

@@ -15,6 +15,7 @@
 #include <mimicry/mesh/shapes.h>
 
 #include "cli/commands.h"
+#include "cli/console.h"
 #include "cli/embedding_input.h"
 
 namespace mimicry::cli {
@@ -45,9 +46,7 @@ io::MeshReadOptions read_options(const std::string& path, const std::string& nam
   options.companion = [path](const std::string& beside) {
     return files::read_beside(path, beside);
   };
-  options.note = [name](const std::string& sentence) {
-    std::fprintf(stderr, "mimicry: %s: %s\n", name.c_str(), sentence.c_str());
-  };
+  options.note = [name](const std::string& sentence) { complain(name + ": " + sentence); };
   if (const char* text = std::getenv("MIMICRY_MAX_UNFOLDED")) {
     const auto limit = io::parse_double(text);
     if (!limit || !(*limit >= 0.0 && *limit < 1e15))
@@ -85,7 +84,7 @@ NamedMesh load_mesh(const std::string& spec) {
 std::string find_mesh_file(const std::string& folder, const std::string& name) {
   for (const char* extension : {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}) {
     const auto path = std::filesystem::path(folder) / (name + extension);
-    if (std::filesystem::exists(path)) return path.string();
+    if (std::filesystem::is_regular_file(path)) return path.string();
   }
   throw Error(ErrorKind::io,
               folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb, .gltf)");
@@ -100,12 +99,7 @@ void add_target_options(CLI::App& command, spatial::TargetOptions& options) {
   command
       .add_flag_callback(
           "--allow-nonmanifold",
-          [] {
-            std::fprintf(
-                stderr,
-                "mimicry: --allow-nonmanifold is no longer needed: every mesh can be drawn "
-                "on\n");
-          })
+          [] { complain("--allow-nonmanifold is no longer needed: every mesh can be drawn on"); })
       ->group("");
 }
 
@@ -121,7 +115,7 @@ spatial::Target make_target_silently(const NamedMesh& named,
 spatial::Target make_target(const NamedMesh& named, const spatial::TargetOptions& options) {
   spatial::Target target = make_target_silently(named, options);
   for (const std::string& sentence : target.connection().sentences())
-    std::fprintf(stderr, "mimicry: %s: %s\n", named.name.c_str(), sentence.c_str());
+    complain(named.name + ": " + sentence);
   return target;
 }
 

@@ -1,7 +1,6 @@
 #include "cli/participant.h"
 
 #include <filesystem>
-#include <system_error>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
@@ -25,8 +24,9 @@ Participant open_participant(const std::string& folder) {
   Participant participant;
   participant.folder = folder;
   participant.name = path.filename().string();
-  participant.sequence = io::read_study_sequence(files::read_file(beside(folder, kSequenceName)),
-                                                 participant.name + "/" + kSequenceName);
+  participant.sequence = io::read_study_sequence(
+      files::read_file(beside(folder, kSequenceName), files::Accept::regular),
+      participant.name + "/" + kSequenceName);
   return participant;
 }
 
@@ -37,20 +37,9 @@ std::string recording_name(Index method, Index shape) {
 std::vector<study::RecordedStroke> load_recording(const Participant& participant, Index method,
                                                   Index shape) {
   const std::string name = recording_name(method, shape);
-  return io::read_recording(files::read_file(beside(participant.folder, name)),
-                            participant.name + "/" + name);
-}
-
-void write_participant(const std::string& folder, const study::StudySequence& sequence,
-                       const std::vector<ParticipantFile>& files) {
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
-  if (trouble)
-    throw Error(ErrorKind::io, folder + ": the folder cannot be made: " + trouble.message());
-  for (const ParticipantFile& file : files)
-    files::write_file_atomically(beside(folder, recording_name(file.method, file.shape)),
-                                 io::write_recording(file.strokes));
-  files::write_file_atomically(beside(folder, kSequenceName), io::write_study_sequence(sequence));
+  return io::read_recording(
+      files::read_file(beside(participant.folder, name), files::Accept::regular),
+      participant.name + "/" + name);
 }
 
 }  // namespace mimicry::cli

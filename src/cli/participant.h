@@ -14,13 +14,6 @@ struct Participant {
   study::StudySequence sequence;
 };
 
-/// What a participant drew with one method on one shape.
-struct ParticipantFile {
-  Index method = kNone;
-  Index shape = kNone;
-  std::vector<study::RecordedStroke> strokes;
-};
-
 /// Reads study_sequence.json. Throws Error where it is missing or wrong.
 Participant open_participant(const std::string& folder);
 
@@ -31,9 +24,5 @@ std::string recording_name(Index method, Index shape);
 /// cannot be read come with their problem.
 std::vector<study::RecordedStroke> load_recording(const Participant& participant, Index method,
                                                   Index shape);
-
-/// Writes a folder, which is made where it is missing.
-void write_participant(const std::string& folder, const study::StudySequence& sequence,
-                       const std::vector<ParticipantFile>& files);
 
 }  // namespace mimicry::cli

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/study_recording.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/keypoints.h>
@@ -19,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/embedding_input.h"
+#include "cli/interrupt.h"
 #include "cli/study_shapes.h"
 
 namespace mimicry::cli {
@@ -124,8 +125,10 @@ void draw_shape(const technique::Canvas& canvas, const StudyShape& shape, std::s
     std::uint64_t slot = 0;
     for (const auto& list : sequence.strokes) slot += method_at * list.size();
     for (std::size_t s = 0; s < shape_at; ++s) slot += sequence.strokes[s].size();
-    for (const study::Trial& trial : trials)
+    for (const study::Trial& trial : trials) {
+      end_if_requested();
       strokes.push_back(draw(canvas, shape, method, trial, study, person, slot++));
+    }
     files::write_file_atomically(
         (std::filesystem::path(folder_of(study.args, number)) /
          (std::to_string(method.number) + "_" + std::to_string(shape.number) + ".json"))
@@ -137,6 +140,7 @@ void draw_shape(const technique::Canvas& canvas, const StudyShape& shape, std::s
 void run_participants(const ParticipantsArguments& args) {
   const StudyShapes shapes(args.shapes);
   Study study{args, methods_of(args.techniques), {}, {}};
+  const auto output_lock = files::OutputLock::of_folder(args.out);
   std::vector<Index> method_numbers, shape_numbers, curve_counts;
   for (const Method& m : study.methods) method_numbers.push_back(m.number);
   for (const StudyShape& s : shapes.list()) {
@@ -146,11 +150,7 @@ void run_participants(const ParticipantsArguments& args) {
   for (Index p = 0; p < args.count; ++p) {
     study.sequences.push_back(
         study::study_sequence(method_numbers, shape_numbers, curve_counts, args.seed, p));
-    std::error_code trouble;
-    std::filesystem::create_directories(folder_of(args, p), trouble);
-    if (trouble)
-      throw Error(ErrorKind::io,
-                  folder_of(args, p) + ": the folder cannot be made: " + trouble.message());
+    files::make_folder(folder_of(args, p));
   }
   std::vector<const technique::TechniqueInfo*> techniques;
   for (const Method& m : study.methods) techniques.push_back(m.technique);
@@ -200,9 +200,7 @@ void add_participants(CLI::App& app, int&) {
   command->add_option("--rate", args->rate_hz, "Frames a second")
       ->check(number_between(20, 1000))
       ->capture_default_str();
-  command->add_option("--threads", args->threads, "0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads_option(*command, args->threads);
   command->callback([args] { run_participants(*args); });
 }
 

@@ -11,6 +11,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/io/curves_glb.h>
 #include <mimicry/io/number.h>
@@ -253,8 +254,7 @@ void print_json(const std::vector<TechniqueRow>& rows, const std::vector<std::st
     }
     list.push_back(entry);
   }
-  std::printf("%s\n",
-              nlohmann::ordered_json{{"techniques", list}, {"files", files}}.dump(2).c_str());
+  std::printf("%s\n", json_text({{"techniques", list}, {"files", files}}).c_str());
 }
 
 void run_project(const ProjectArguments& args) {
@@ -266,8 +266,8 @@ void run_project(const ProjectArguments& args) {
   for (const Stroke& stroke : strokes) {
     require_on_mesh(stroke, named);
     if (stroke.target != named.name)
-      std::fprintf(stderr, "mimicry: stroke '%s' was drawn on '%s'; it is projected on '%s'\n",
-                   stroke.id.c_str(), stroke.target.c_str(), named.name.c_str());
+      complain("stroke '" + stroke.id + "' was drawn on '" + stroke.target +
+               "'; it is projected on '" + named.name + "'");
   }
   const auto chosen = chosen_techniques(args.techniques);
   std::vector<OptionValue> given;
@@ -279,6 +279,7 @@ void run_project(const ProjectArguments& args) {
       args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
+  const auto output_lock = files::OutputLock::of_folder(args.out);
   const PreparedCanvas prepared(target, chosen, args.embedding, args.bake);
 
   io::CurveSet set{named.name, {}};
@@ -296,10 +297,6 @@ void run_project(const ProjectArguments& args) {
   }
 
   const std::filesystem::path folder(args.out);
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
-  if (trouble)
-    throw Error(ErrorKind::io, args.out + ": the folder cannot be made: " + trouble.message());
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
   // All bytes are made before the first file is written.
   std::vector<std::string> bytes;

@@ -16,7 +16,6 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/embedding_input.h"
-#include "cli/interrupt.h"
 #include "cli/mesh_input.h"
 
 namespace mimicry::cli {
@@ -100,11 +99,10 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   row.tetrahedra = e.tets.size();
   row.bake = e.quality;
   const LoadedProjector projector(std::move(e), row.name);
-  const InterruptWatch watch;
   ProgressLine line("measuring " + row.name);
   row.projection = bake::projection_quality(*projector, executor, [&](const Progress& now) {
     line.update(static_cast<std::size_t>(100 * now.fraction), 100);
-    return !watch.interrupted();
+    return true;
   });
   return row;
 }
@@ -235,7 +233,7 @@ std::vector<QualityRow> measure_all(const QualityArguments& args) {
     }
   }
   if (rows.empty() && !errors.empty()) throw Error(errors.front());
-  for (const Error& error : errors) std::fprintf(stderr, "mimicry: left out: %s\n", error.what());
+  for (const Error& error : errors) complain("left out: " + std::string(error.what()));
   return rows;
 }
 
@@ -245,7 +243,7 @@ void run_quality(const QualityArguments& args, int& status) {
   if (args.json) {
     Json list = Json::array();
     for (const QualityRow& row : rows) list.push_back(row_json(row));
-    std::printf("%s\n", list.dump(2).c_str());
+    std::printf("%s\n", json_text(list).c_str());
   } else if (args.csv) {
     print_csv(rows);
   } else {

@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/embedding_input.h"
+#include "cli/interrupt.h"
 #include "cli/mesh_input.h"
 #include "cli/replay_jobs.h"
 #include "cli/row_journal.h"
@@ -72,20 +73,20 @@ void run_replay(const ReplayArguments& args, int& status) {
   const Replayer replayer(options);
   ReplaySource source(args.strokes);
   const nlohmann::ordered_json settings = settings_of(args);
-  RowJournal journal(args.out, settings.dump(), io::csv_heading(replay_columns()));
+  RowJournal journal(args.out, json_text(settings, -1), io::csv_heading(replay_columns()));
   // Where it lies, so that the report of a study that was moved as a whole finds its strokes.
   nlohmann::ordered_json kept = settings;
   kept["folder"] = std::filesystem::absolute(args.out).lexically_normal().string();
   files::write_file_atomically((std::filesystem::path(args.out) / "replay.json").string(),
-                               kept.dump(2) + "\n");
+                               json_text(kept) + "\n");
 
   // Jobs that were finished before the interruption.
   std::size_t job = 0;
   for (; job < journal.jobs(); ++job)
     if (!source.next()) break;
   if (journal.jobs() > 0)
-    std::fprintf(stderr, "mimicry: %s: %zu rows are there already; the rest follows\n",
-                 args.out.c_str(), journal.rows());
+    complain(args.out + ": " + std::to_string(journal.rows()) +
+             " rows are there already; the rest follows");
 
   ProgressLine progress("replaying");
   const int threads = thread_count(args.threads);
@@ -95,12 +96,12 @@ void run_replay(const ReplayArguments& args, int& status) {
       threads, most_ahead, [&] { return source.next(); },
       [&](const ReplayJob& next) { return replayer.run(next); },
       [&](const ReplayRows& rows) {
-        for (const std::string& reason : rows.reasons)
-          std::fprintf(stderr, "mimicry: rejected: %s\n", reason.c_str());
+        end_if_requested();
+        for (const std::string& reason : rows.reasons) complain("rejected: " + reason);
         journal.append(rows.csv, rows.json_lines, rows.rows, rows.rejected);
         progress.update(source.bytes_read(), source.bytes());
       });
-  journal.finish();
+  journal.record();
   std::printf("%s: %zu rows, %zu of them rejected\n", journal.csv_path().c_str(), journal.rows(),
               journal.rejected());
   if (journal.rejected() > 0 || journal.rows() == 0)
@@ -133,9 +134,7 @@ void add_replay(CLI::App& app, int& status) {
   command->add_option("--misses", args->misses, "Where a point is undefined: connect or split")
       ->check(CLI::IsMember({"connect", "split"}))
       ->capture_default_str();
-  command->add_option("--threads", args->threads, "0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads_option(*command, args->threads);
   command->callback([args, &status] { run_replay(*args, status); });
 }
 

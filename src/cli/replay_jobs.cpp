@@ -54,7 +54,8 @@ ReplaySource::ReplaySource(const std::vector<std::string>& paths) : paths_(paths
       for (const auto& entry : fs::directory_iterator(path))
         if (entry.is_regular_file()) bytes_ += entry.file_size();
     } else {
-      bytes_ += fs::file_size(path, trouble);
+      const auto size = fs::file_size(path, trouble);
+      if (!trouble) bytes_ += size;  // what a pipe will give is not known
     }
   }
 }
@@ -156,10 +157,10 @@ Replayer::~Replayer() = default;
 
 const Replayer::Shape& Replayer::shape(const std::string& name) const {
   const std::lock_guard guard(lock_);
-  std::unique_ptr<Shape>& entry = loaded_[name];
-  if (entry) return *entry;
-  entry = std::make_unique<Shape>();
-  Shape& shape = *entry;
+  const auto known = loaded_.find(name);
+  if (known != loaded_.end()) return *known->second;
+  auto made = std::make_unique<Shape>();
+  Shape& shape = *made;
   try {
     const NamedMesh named =
         load_mesh(options_.mesh.empty() ? mesh_spec(options_.shapes, name) : options_.mesh);
@@ -177,9 +178,10 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
     }
     shape.canvas = std::make_unique<PreparedCanvas>(*shape.target, options_.techniques);
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
     shape.problem = error.what();
   }
-  return shape;
+  return *loaded_.emplace(name, std::move(made)).first->second;
 }
 
 void Replayer::reject(const Row& row, const std::string& reason, ReplayRows& rows) const {
@@ -273,6 +275,7 @@ void Replayer::replay_text(const ReplayJob& job, ReplayRows& rows) const {
         },
         job.index);
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
     reject(row, error.what(), rows);
   }
 }

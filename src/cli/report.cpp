@@ -7,8 +7,11 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 
 #include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/embedding_input.h"
 #include "cli/mesh_input.h"
 #include "cli/report/bundle.h"
 #include "cli/report/figure_data.h"
@@ -31,20 +34,13 @@ struct ReportArguments {
   GalleryOptions gallery;
 };
 
-void make_folder(const fs::path& folder) {
-  std::error_code trouble;
-  fs::create_directories(folder, trouble);
-  if (trouble)
-    throw Error(ErrorKind::io,
-                folder.string() + ": the folder cannot be made: " + trouble.message());
-}
-
 // What `measure` lists beside its rows; none where there is no such file.
 std::vector<RejectedStroke> rejected_beside(const fs::path& rows) {
   const fs::path path = rows.parent_path() / (rows.stem().string() + ".rejected.csv");
   if (!fs::exists(path)) return {};
   const std::string name = path.filename().string();
-  return read_rejected(io::read_csv(files::read_file(path.string()), name), name);
+  return read_rejected(io::read_csv(files::read_file(path.string(), files::Accept::regular), name),
+                       name);
 }
 
 // mimicry-worst-1.png.
@@ -86,8 +82,8 @@ void run_report(ReportArguments args) {
 
   const fs::path out = args.out.empty() ? folder : fs::path(args.out);
   const fs::path figures = out / "figures";
-  make_folder(figures);
-  const std::string data = figure_data(summary).dump();
+  const auto output_lock = files::OutputLock::of_folder(figures.string());
+  const std::string data = json_text(figure_data(summary), -1);
   files::write_file_atomically((figures / "data.json").string(), data);
   write_pictures(gallery, figures);
   if (args.title.empty())
@@ -98,16 +94,16 @@ void run_report(ReportArguments args) {
                                           {args.title, args.summary.comparison.bootstrap.level}));
   std::printf("%s\n", page.c_str());
   if (gallery.pictures.empty() && !gallery.problems.empty())
-    std::fprintf(stderr,
-                 "mimicry: no pictures of strokes (%s); --recordings, --shapes and --targets say "
-                 "where they are, --gallery 0 leaves them out\n",
-                 gallery.problems.front().c_str());
+    complain("no pictures of strokes (" + gallery.problems.front() +
+             "); --recordings, --shapes and --targets say where they are, --gallery 0 leaves them "
+             "out");
   if (draw_figure_files(figures.string()))
     std::printf("%s: the figures as SVG and PNG\n", figures.string().c_str());
   else
-    std::fprintf(stderr,
-                 "mimicry: no SVG and PNG files, for want of the program node (18 or newer); the "
-                 "page draws its plots itself and offers them for saving\n");
+    complain(
+        "no SVG and PNG files, for want of the program node (18 or newer); the page draws its "
+        "plots "
+        "itself and offers them for saving");
 }
 
 }  // namespace
@@ -148,9 +144,7 @@ void add_report(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_option("--seed", args->summary.comparison.bootstrap.seed, "Of the intervals")
       ->capture_default_str();
-  command->add_option("--threads", args->gallery.threads, "0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads_option(*command, args->gallery.threads);
   command->callback([args] { run_report(*args); });
 }
 

@@ -1,10 +1,8 @@
 #include "cli/row_journal.h"
 
-#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
-
-#include <unistd.h>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
@@ -14,9 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& path, const char* what, int error) {
-  throw Error(ErrorKind::io, path + ": " + what + ": " + std::generic_category().message(error));
-}
+constexpr std::chrono::milliseconds kRecordEvery{500};
 
 std::size_t size_of(const std::string& path) {
   std::error_code none;
@@ -28,16 +24,13 @@ std::size_t size_of(const std::string& path) {
 
 RowJournal::RowJournal(const std::string& folder, const std::string& settings,
                        const std::string& heading)
-    : csv_path_((fs::path(folder) / "rows.csv").string()),
-      json_path_((fs::path(folder) / "rows.jsonl").string()),
-      journal_path_((fs::path(folder) / "rows.journal").string()) {
-  std::error_code trouble;
-  fs::create_directories(folder, trouble);
-  if (trouble)
-    throw Error(ErrorKind::io, folder + ": the folder cannot be made: " + trouble.message());
-  std::size_t journal_bytes = 0;
-  if (fs::exists(journal_path_)) {
-    const std::string text = files::read_file(journal_path_);
+    : lock_(files::OutputLock::of_folder(folder)) {
+  const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  const std::string csv_path = in_folder("rows.csv"), json_path = in_folder("rows.jsonl"),
+                    journal_path = in_folder("rows.journal");
+  std::size_t journal_bytes = 0, csv_bytes = 0, json_bytes = 0;
+  if (fs::exists(journal_path)) {
+    const std::string text = files::read_file(journal_path, files::Accept::regular);
     const std::size_t end = text.find('\n');
     if (end != std::string::npos && text.substr(0, end) != settings)
       throw Error(ErrorKind::invalid_input,
@@ -51,65 +44,63 @@ RowJournal::RowJournal(const std::string& folder, const std::string& settings,
       if (to == std::string::npos ||
           std::sscanf(text.c_str() + from, "%zu %zu %zu %zu %zu", &jobs, &rows, &rejected, &csv,
                       &json) != 5 ||
-          csv > size_of(csv_path_) || json > size_of(json_path_))
+          csv > size_of(csv_path) || json > size_of(json_path))
         break;
       jobs_ = jobs;
       rows_ = rows;
       rejected_ = rejected;
-      csv_bytes_ = csv;
-      json_bytes_ = json;
+      csv_bytes = csv;
+      json_bytes = json;
       from = journal_bytes = to + 1;
     }
-  } else if (fs::exists(csv_path_) || fs::exists(json_path_)) {
+  } else if (fs::exists(csv_path) || fs::exists(json_path)) {
     throw Error(ErrorKind::invalid_input,
                 folder + ": holds rows of another program; give another --out");
   }
-  journal_ = open_at(journal_path_, journal_bytes);
-  csv_ = open_at(csv_path_, csv_bytes_);
-  json_ = open_at(json_path_, json_bytes_);
-  if (journal_bytes == 0) {
-    write(journal_, journal_path_, settings + "\n");
-    write(csv_, csv_path_, heading);
-    csv_bytes_ = heading.size();
+  recorded_ = jobs_;
+  // The journal first: tables without one would be taken for another program's.
+  journal_ = std::make_unique<files::AppendFile>(journal_path, journal_bytes);
+  csv_ = std::make_unique<files::AppendFile>(csv_path, csv_bytes);
+  json_ = std::make_unique<files::AppendFile>(json_path, json_bytes);
+  if (journal_bytes > 0) return;
+  failed_ = true;
+  journal_->append(settings + "\n");
+  csv_->append(heading);
+  record();
+  failed_ = false;
+}
+
+RowJournal::~RowJournal() {
+  if (failed_ || recorded_ == jobs_) return;
+  try {
     record();
+  } catch (const Error&) {  // as if the last rows had not been made
   }
-}
-
-RowJournal::File RowJournal::open_at(const std::string& path, std::size_t size) {
-  File file(std::fopen(path.c_str(), "ab"));
-  if (!file) fail(path, "cannot be written", errno);
-  if (ftruncate(fileno(file.get()), static_cast<off_t>(size)) != 0)
-    fail(path, "cannot be cut", errno);
-  return file;
-}
-
-void RowJournal::write(const File& file, const std::string& path, std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
-      std::fflush(file.get()) != 0)
-    fail(path, "cannot be written", errno);
 }
 
 void RowJournal::append(std::string_view csv, std::string_view json_lines, std::size_t rows,
                         std::size_t rejected) {
-  write(csv_, csv_path_, csv);
-  write(json_, json_path_, json_lines);
+  failed_ = true;
+  csv_->append(csv);
+  json_->append(json_lines);
+  failed_ = false;
   ++jobs_;
   rows_ += rows;
   rejected_ += rejected;
-  csv_bytes_ += csv.size();
-  json_bytes_ += json_lines.size();
-  record();
+  if (Clock::now() - recorded_at_ >= kRecordEvery) record();
 }
 
 void RowJournal::record() {
-  write(journal_, journal_path_,
-        std::to_string(jobs_) + " " + std::to_string(rows_) + " " + std::to_string(rejected_) +
-            " " + std::to_string(csv_bytes_) + " " + std::to_string(json_bytes_) + "\n");
-}
-
-void RowJournal::finish() {
-  for (const File* file : {&csv_, &json_, &journal_})
-    if (fsync(fileno(file->get())) != 0) fail(csv_path_, "cannot be written", errno);
+  failed_ = true;
+  csv_->sync();
+  json_->sync();
+  journal_->append(std::to_string(jobs_) + " " + std::to_string(rows_) + " " +
+                   std::to_string(rejected_) + " " + std::to_string(csv_->size()) + " " +
+                   std::to_string(json_->size()) + "\n");
+  journal_->sync();
+  failed_ = false;
+  recorded_ = jobs_;
+  recorded_at_ = Clock::now();
 }
 
 }  // namespace mimicry::cli

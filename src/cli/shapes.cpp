@@ -40,7 +40,7 @@ void list_shapes(bool json) {
                     std::string(s.description) + "; resolution: " + std::string(s.resolution)});
   }
   if (json)
-    std::printf("%s\n", list.dump(2).c_str());
+    std::printf("%s\n", json_text(list).c_str());
   else
     print_table({"shape", "resolution", "range", ""}, rows);
 }

@@ -7,6 +7,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
@@ -106,6 +107,7 @@ bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) 
 }
 
 void run_simulate(const SimulateArguments& args) {
+  const auto output_lock = files::OutputLock::of_file(args.out);
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.target);
   const Task task = task_of(args, named, target);

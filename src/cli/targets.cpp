@@ -8,6 +8,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
+#include <mimicry/files/output_lock.h>
 #include <mimicry/io/targets_writer.h>
 #include <mimicry/render/figure.h>
 #include <mimicry/render/palette.h>
@@ -83,6 +84,7 @@ void set_range(const std::vector<double>& given, double unit, double& least, dou
 }
 
 void run_targets(const TargetsArguments& args) {
+  const auto output_lock = files::OutputLock::of_file(args.out);
   study::TargetSampling sampling = args.sampling;
   set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
   set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);

@@ -53,7 +53,7 @@ void add_techniques(CLI::App& app, int&) {
     Json list = Json::array();
     for (const technique::TechniqueInfo& info : technique::techniques())
       list.push_back(to_json(info));
-    std::printf("%s\n", list.dump(2).c_str());
+    std::printf("%s\n", json_text(list).c_str());
   });
 }
 

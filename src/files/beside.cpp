@@ -24,7 +24,7 @@ std::optional<std::string> read_beside(const std::string& path, const std::strin
                                             "; put a copy beside the mesh");
   if (!fs::is_regular_file(file, error))
     throw Error(ErrorKind::io, path + ": its file " + name + " is not a file; put one there");
-  return read_file(file.string());
+  return read_file(file.string(), Accept::regular);
 }
 
 }  // namespace mimicry::files

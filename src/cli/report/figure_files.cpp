@@ -2,16 +2,19 @@
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 
 #include <spawn.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
 #include <mimicry/render/text.h>
 
+#include "cli/interrupt.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
 
@@ -23,18 +26,6 @@ namespace {
 [[noreturn]] void fail(const std::string& what, int error) {
   throw Error(ErrorKind::io, "node: " + what + ": " + std::generic_category().message(error));
 }
-
-// A child that ends early must not end us.
-class IgnoreBrokenPipes {
- public:
-  IgnoreBrokenPipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-  ~IgnoreBrokenPipes() { std::signal(SIGPIPE, before_); }
-  IgnoreBrokenPipes(const IgnoreBrokenPipes&) = delete;
-  IgnoreBrokenPipes& operator=(const IgnoreBrokenPipes&) = delete;
-
- private:
-  void (*before_)(int);
-};
 
 bool write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -70,19 +61,41 @@ pid_t start_node(const std::string& folder, int& script) {
   return child;
 }
 
+// The child's status; it is ended where we are asked to end.
+int wait_for(pid_t child) {
+  int status = 0;
+  for (pid_t ended = 0; ended != child;) {
+    if (end_requested()) ::kill(child, SIGKILL);
+    ended = ::waitpid(child, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR) fail("cannot be waited for", errno);
+    constexpr timespec kPause{0, 10'000'000};
+    if (ended != child) ::nanosleep(&kPause, nullptr);
+  }
+  set_child(0);
+  return status;
+}
+
+void remove_parts(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), none);
+}
+
 }  // namespace
 
 bool draw_figure_files(const std::string& folder) {
-  const IgnoreBrokenPipes guard;
   int script = -1;
   const pid_t child = start_node(folder, script);
   if (child == 0) return false;
+  set_child(child);
   write_all(script, "const mimicryFont = '") && write_all(script, base64(render::font_file())) &&
       write_all(script, "';\n") && write_all(script, files_script());
   ::close(script);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) fail("cannot be waited for", errno);
+  const int status = wait_for(child);
+  if (end_requested()) {
+    remove_parts(folder);
+    end_if_requested();
+  }
   // 127: what spawning reports from the child where the program is not there.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return false;
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

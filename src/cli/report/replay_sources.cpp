@@ -34,7 +34,7 @@ void add_replay_sources(const std::string& folder, StrokeSources& sources) {
   std::error_code none;
   if (!fs::exists(path, none)) return;
   try {
-    const Json settings = Json::parse(files::read_file(path.string()));
+    const Json settings = Json::parse(files::read_file(path.string(), files::Accept::regular));
     const fs::path then = settings.value("folder", "");
     const fs::path now = fs::absolute(folder).lexically_normal();
     const auto text = [&](const char* key) { return found(settings.value(key, ""), then, now); };
