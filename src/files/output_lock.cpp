@@ -31,10 +31,12 @@ struct OutputLock::Held {
   Descriptor file;
   std::string path;  // of the lock's own file; empty: none
   std::unique_ptr<Unfinished> unfinished;
+  std::string made;  // a folder; empty: none
 
   ~Held() {
     // While the lock is held: whoever waits for this file finds that it has no name any more.
     if (!path.empty()) ::unlink(path.c_str());
+    if (!made.empty()) ::rmdir(made.c_str());  // if nothing came there
   }
 };
 
@@ -43,11 +45,14 @@ OutputLock::OutputLock(OutputLock&&) noexcept = default;
 OutputLock::~OutputLock() = default;
 
 OutputLock OutputLock::of_folder(const std::string& folder) {
+  std::error_code none;
+  const bool was_there = std::filesystem::exists(folder, none);
   make_folder(folder);
   Descriptor file(open_file(folder, O_RDONLY | O_DIRECTORY));
   if (!file) fail(folder, "cannot be opened", errno);
   take(file.get(), folder);
-  return OutputLock(std::unique_ptr<Held>(new Held{std::move(file), {}, nullptr}));
+  return OutputLock(std::unique_ptr<Held>(
+      new Held{std::move(file), {}, nullptr, was_there ? std::string() : folder}));
 }
 
 OutputLock OutputLock::of_file(const std::string& file) {
@@ -73,7 +78,7 @@ OutputLock OutputLock::of_file(const std::string& file) {
     auto unfinished = std::make_unique<Unfinished>(name);
     unfinished->made();
     return OutputLock(
-        std::unique_ptr<Held>(new Held{std::move(lock), name, std::move(unfinished)}));
+        std::unique_ptr<Held>(new Held{std::move(lock), name, std::move(unfinished), {}}));
   }
 }
 

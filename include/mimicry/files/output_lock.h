@@ -9,8 +9,9 @@ namespace mimicry::files {
 /// the program ends, however it ends. File systems without locks are used without.
 class OutputLock {
  public:
-  /// Of a folder, which is made where it is missing. Nothing is written for the lock. Throws
-  /// Error(io) where another program has it, naming the folder.
+  /// Of a folder, which is made where it is missing, and removed again where nothing came there.
+  /// Nothing is written for the lock. Throws Error(io) where another program has it, naming the
+  /// folder.
   static OutputLock of_folder(const std::string& folder);
   /// Of one file: `.NAME.lock` stands beside it meanwhile. Throws Error(io) where another program
   /// has it, or where no file can be written there. A device or pipe needs no lock.
