@@ -270,9 +270,10 @@ TEST(CApi, FilesComeBack) {
   for (const int unknown : {-1, 17, 1 << 30}) {
     mimicry_bytes* none = nullptr;
     const mimicry_curve* one = curve.get();
-    EXPECT_EQ(mimicry_curves_write(target.get(), "shape", &one, 1,
-                                   static_cast<mimicry_curve_format>(unknown), nullptr, 0.01, &none),
-              MIMICRY_INVALID_INPUT);
+    EXPECT_EQ(
+        mimicry_curves_write(target.get(), "shape", &one, 1,
+                             static_cast<mimicry_curve_format>(unknown), nullptr, 0.01, &none),
+        MIMICRY_INVALID_INPUT);
     EXPECT_EQ(none, nullptr);
     EXPECT_THAT(mimicry_last_error(), HasSubstr(std::to_string(unknown)));
   }
