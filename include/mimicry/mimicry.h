@@ -350,8 +350,14 @@ MIMICRY_API size_t mimicry_curve_ink_count(const mimicry_curve* curve);
 /* A copy that bears another stroke's id. */
 MIMICRY_API mimicry_status mimicry_curve_with_stroke(const mimicry_curve* curve, const char* id,
                                                      mimicry_curve** out);
+/* A copy whose tube is as thick as given at each point, and changes linearly between them, as ink
+ * drawn with a pen's pressure. radii: one for each point, model units, > 0; NULL: none of its own.
+ */
+MIMICRY_API mimicry_status mimicry_curve_with_radii(const mimicry_curve* curve, const double* radii,
+                                                    mimicry_curve** out);
 
-/* Edits make a new curve on the surface and leave the old one. */
+/* Edits make a new curve on the surface and leave the old one. Radii stay where the points do: in
+ * slices and smoothed curves. */
 /* Points [first, end) of it; an open curve. */
 MIMICRY_API mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, size_t end,
                                                mimicry_curve** out);
@@ -381,8 +387,8 @@ MIMICRY_API mimicry_status mimicry_curve_simplify_with_progress(const mimicry_cu
 /* Joins the end to the start by the shortest path; fails where the surface does not join them. */
 MIMICRY_API mimicry_status mimicry_curve_close(const mimicry_curve* curve, mimicry_curve** out);
 
-/* A round tube around the curve. radius: model units, > 0. sides: 3 to 1024. lift: model units by
- * which the curve is raised along the surface's normal. */
+/* A round tube around the curve. radius: model units, > 0; of a curve without radii. sides: 3 to
+ * 1024. lift: model units by which the curve is raised along the surface's normal. */
 MIMICRY_API mimicry_status mimicry_curve_tube(const mimicry_curve* curve, double radius,
                                               int32_t sides, double lift, mimicry_tube** out);
 MIMICRY_API void mimicry_tube_destroy(mimicry_tube* tube);
@@ -396,12 +402,15 @@ typedef enum mimicry_curve_format MIMICRY_INT {
   MIMICRY_CURVES_JSON = 0,
   MIMICRY_CURVES_OBJ = 1,
   MIMICRY_CURVES_CSV = 2,
-  MIMICRY_CURVES_PLY = 3,
-  MIMICRY_CURVES_GLB = 4
+  MIMICRY_CURVES_PLY = 3,           /* tubes */
+  MIMICRY_CURVES_GLB = 4,           /* the target, and tubes */
+  MIMICRY_CURVES_OBJ_POLYLINES = 5, /* one long line element a part; some importers lose it */
+  MIMICRY_CURVES_PLY_LINES = 6,     /* edge elements, which few readers know */
+  MIMICRY_CURVES_GLB_LINES = 7      /* the target, and line strips */
 } mimicry_curve_format;
 
 /* A file of curves on one target. colors: count by 3, sRGB (NULL: black; PLY and GLB only).
- * tube_radius: model units (GLB only). */
+ * tube_radius: model units, > 0; of curves without radii, in formats with tubes. */
 MIMICRY_API mimicry_status mimicry_curves_write(const mimicry_target* target,
                                                 const char* target_name,
                                                 const mimicry_curve* const* curves, size_t count,

@@ -3,7 +3,7 @@ import { readFile, rename, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { initWasm, Resvg } from '@resvg/resvg-wasm';
 import wasm from '@resvg/resvg-wasm/index_bg.wasm';
-import { view } from './draw.ts';
+import { svgOf, view } from './draw.ts';
 import type { Data } from './data.ts';
 import { figures } from './figures.ts';
 
@@ -21,7 +21,7 @@ async function main(folder: string): Promise<void> {
   const font = Buffer.from(mimicryFont, 'base64');
   const data = JSON.parse(await readFile(join(folder, 'data.json'), 'utf8')) as Data;
   for (const figure of figures(data)) {
-    const svg = await view(figure).toSVG();
+    const svg = await svgOf(view(figure));
     await write(join(folder, `${figure.id}.svg`), svg);
     const image = new Resvg(svg, {
       fitTo: { mode: 'zoom', value: 2 },

@@ -1,4 +1,5 @@
-#include <limits>
+#include <cmath>
+#include <cstddef>
 
 #include <mimicry/curve/edit.h>
 #include <mimicry/io/tube_mesh.h>
@@ -34,6 +35,7 @@ mimicry_status edited(const mimicry_curve* curve, mimicry_curve** out, Edit&& ed
     require(curve, "curve");
     io::CurveRecord record = curve->record;
     record.curve = edit(record.curve, *curve->target);
+    if (record.radii.size() != record.curve.points.size()) record.radii.clear();
     return make_curve(curve->target, std::move(record));
   });
 }
@@ -48,6 +50,18 @@ void append_tube(mimicry_tube& tube, const std::vector<Vec3>& points,
     for (int k = 0; k < 3; ++k) tube.normals.push_back(static_cast<float>(n[k]));
   for (const Face& face : part.mesh.faces())
     for (const Index v : face) tube.faces.push_back(first + static_cast<uint32_t>(v));
+}
+
+// The ink between gaps, raised along the surface's normals.
+std::vector<std::vector<Vec3>> raised_polylines(const mimicry_curve& curve, double lift) {
+  std::vector<std::vector<Vec3>> parts;
+  for (const mimicry_ink& v : curve.ink) {
+    if (v.starts) parts.emplace_back();
+    parts.back().emplace_back(v.position[0] + lift * v.normal[0],
+                              v.position[1] + lift * v.normal[1],
+                              v.position[2] + lift * v.normal[2]);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -130,10 +144,31 @@ mimicry_status mimicry_curve_with_stroke(const mimicry_curve* curve, const char*
   });
 }
 
+mimicry_status mimicry_curve_with_radii(const mimicry_curve* curve, const double* radii,
+                                        mimicry_curve** out) {
+  return made(out, [&] {
+    require(curve, "curve");
+    mimicry_curve copy = *curve;
+    copy.record.radii.clear();
+    if (radii) copy.record.radii.assign(radii, radii + copy.record.curve.points.size());
+    for (std::size_t i = 0; i < copy.record.radii.size(); ++i)
+      if (!std::isfinite(radii[i]) || radii[i] <= 0.0)
+        throw Error(ErrorKind::invalid_input,
+                    "radius " + std::to_string(i) + " is not above 0; give one for each point");
+    return copy;
+  });
+}
+
 mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, size_t end,
                                    mimicry_curve** out) {
-  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target&) {
-    return curve::slice(c, first, end);
+  return made(out, [&] {
+    require(curve, "curve");
+    io::CurveRecord record = curve->record;
+    record.curve = curve::slice(record.curve, first, end);
+    if (!record.radii.empty())
+      record.radii = {curve->record.radii.begin() + static_cast<std::ptrdiff_t>(first),
+                      curve->record.radii.begin() + static_cast<std::ptrdiff_t>(end)};
+    return make_curve(curve->target, std::move(record));
   });
 }
 
@@ -193,22 +228,21 @@ mimicry_status mimicry_curve_tube(const mimicry_curve* curve, double radius, int
   return made(out, [&] {
     require(curve, "curve");
     mimicry_tube tube;
-    io::TubeOptions options{radius, sides, false};
-    std::vector<Vec3> points;
-    bool whole = true;  // one part
-    for (const mimicry_ink& v : curve->ink) {
-      if (v.starts && !points.empty()) {
-        append_tube(tube, points, options);
-        points.clear();
-        whole = false;
+    std::vector<std::vector<double>> radii;
+    if (!curve->record.radii.empty())
+      radii = io::polyline_radii(curve->record, curve->target->mesh());
+    const auto parts = raised_polylines(*curve, lift);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      // A closed curve's last point is its first again.
+      io::TubeOptions options{radius, sides, curve->record.curve.closed && parts.size() == 1};
+      std::vector<Vec3> points = parts[part];
+      if (!radii.empty()) options.radii = radii[part];
+      if (options.closed && points.size() > 1) {
+        points.pop_back();
+        if (!radii.empty()) options.radii = options.radii.first(points.size());
       }
-      points.emplace_back(v.position[0] + lift * v.normal[0], v.position[1] + lift * v.normal[1],
-                          v.position[2] + lift * v.normal[2]);
+      append_tube(tube, points, options);
     }
-    // A closed curve's last point is its first again.
-    options.closed = curve->record.curve.closed && whole;
-    if (options.closed && points.size() > 1) points.pop_back();
-    append_tube(tube, points, options);
     return tube;
   });
 }

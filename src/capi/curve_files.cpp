@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <mimicry/io/curves_glb.h>
+#include <mimicry/io/curves_ply.h>
 
 #include "capi/handles.h"
 
@@ -17,6 +19,13 @@ namespace {
 
 using Color = std::array<unsigned char, 3>;
 
+void require_tubes(const io::CurveSet& set, double radius) {
+  const bool all_have = std::all_of(set.curves.begin(), set.curves.end(),
+                                    [](const io::CurveRecord& r) { return !r.radii.empty(); });
+  if (!all_have && (!std::isfinite(radius) || radius <= 0.0))
+    throw Error(ErrorKind::invalid_input, "the tubes' radius is not above 0");
+}
+
 std::string file_bytes(mimicry_curve_format format, const io::CurveSet& set,
                        const TriangleMesh& mesh, const std::vector<Color>& colors, double radius) {
   switch (format) {
@@ -27,11 +36,17 @@ std::string file_bytes(mimicry_curve_format format, const io::CurveSet& set,
     case MIMICRY_CURVES_CSV:
       return io::write_curves_csv(set, mesh);
     case MIMICRY_CURVES_PLY:
-      return io::write_curves_ply(set, mesh, colors);
+      require_tubes(set, radius);
+      return io::write_curves_ply(set, mesh, colors, radius);
     case MIMICRY_CURVES_GLB:
-      if (!std::isfinite(radius) || radius <= 0.0)
-        throw Error(ErrorKind::invalid_input, "the tubes' radius is not above 0");
+      require_tubes(set, radius);
       return io::write_curves_glb(set, mesh, colors, radius);
+    case MIMICRY_CURVES_OBJ_POLYLINES:
+      return io::write_curves_obj(set, mesh, io::ObjLines::polylines);
+    case MIMICRY_CURVES_PLY_LINES:
+      return io::write_curves_ply_lines(set, mesh, colors);
+    case MIMICRY_CURVES_GLB_LINES:
+      return io::write_curves_glb_lines(set, mesh, colors);
   }
   throw Error(ErrorKind::invalid_input,
               "there is no curve format " + std::to_string(static_cast<int>(format)));

@@ -2,10 +2,26 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <mimicry/base/error.h>
 
 namespace mimicry::cli {
+
+std::vector<const technique::TechniqueInfo*> chosen_techniques(
+    const std::vector<std::string>& names) {
+  bool all = names.empty();
+  std::set<const technique::TechniqueInfo*> named;
+  for (const std::string& name : names)
+    if (name == "all")
+      all = true;
+    else
+      named.insert(&technique::find_technique(name));
+  std::vector<const technique::TechniqueInfo*> chosen;
+  for (const technique::TechniqueInfo& info : technique::techniques())
+    if (all || named.contains(&info)) chosen.push_back(&info);
+  return chosen;
+}
 
 PreparedCanvas::PreparedCanvas(const spatial::Target& target,
                                std::span<const technique::TechniqueInfo* const> techniques,

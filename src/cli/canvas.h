@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/technique/technique.h>
@@ -10,6 +11,11 @@
 #include "cli/embedding_input.h"
 
 namespace mimicry::cli {
+
+/// The techniques of these names in the registry's order, each once; all where there are no names
+/// or one is `all`. Throws Error(invalid_input) for a name that does not exist.
+std::vector<const technique::TechniqueInfo*> chosen_techniques(
+    const std::vector<std::string>& names);
 
 /// What the given techniques look at: the target and, where one of them needs it, its bake: from
 /// `embedding_file`, or as `settings` say where that is empty. Refers to the target.

@@ -33,6 +33,8 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
   std::printf("%s: %zu pairs", group.name.c_str(), group.pairs);
   if (group.failed > 0) std::printf(", %zu left out (rejected or filtered)", group.failed);
   if (group.unpaired > 0) std::printf(", %zu rows without a partner", group.unpaired);
+  const int participants = comparisons.empty() ? 0 : comparisons.front().participants;
+  if (participants > 1) std::printf(", %d participants", participants);
   std::printf("\n");
   const std::string& a = args.methods[0];
   const std::string& b = args.methods[1];
@@ -41,9 +43,9 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
   for (const study::Comparison& c : comparisons) {
     rows.push_back({c.name, significant(c.a.mean), significant(c.a.standard_deviation),
                     significant(c.b.mean), significant(c.b.standard_deviation), fixed(c.test.z, 2),
-                    probability(c.test.p()), probability(c.p_holm), fixed(c.test.effect_r, 2),
-                    fixed(c.test.rank_biserial, 2), significant(c.difference.low),
-                    significant(c.difference.high)});
+                    probability(c.test.p()), probability(c.p_holm), participants_probability(c),
+                    fixed(c.test.effect_r, 2), fixed(c.test.rank_biserial, 2),
+                    significant(c.difference.low), significant(c.difference.high)});
     if (!has_paper) continue;
     const auto* paper = paper_figure(a, b, group.name, c.name);
     const auto agrees = paper != nullptr ? study::agreement(c, *paper) : study::Agreement();
@@ -52,8 +54,19 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
     rows.back().emplace_back(mark(paper != nullptr && agrees.difference(*paper)));
   }
   const std::string level = fixed(100 * args.comparison.bootstrap.level, 0) + " %";
-  std::vector<std::string> heading = {
-      "", a, "sd", b, "sd", "z", "p", "Holm p", "r", "rank-biserial", level + " from", "to"};
+  std::vector<std::string> heading = {"",
+                                      a,
+                                      "sd",
+                                      b,
+                                      "sd",
+                                      "z",
+                                      "p",
+                                      "Holm p",
+                                      "p by participant",
+                                      "r",
+                                      "rank-biserial",
+                                      level + " from",
+                                      "to"};
   if (has_paper) {
     heading.emplace_back("paper: means");
     heading.emplace_back("difference");

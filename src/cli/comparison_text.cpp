@@ -16,6 +16,14 @@ Json to_json(const study::Moments& m) {
           {"median", json_number(m.median)}};
 }
 
+Json participants_json(const study::Comparison& c) {
+  if (c.participants == 0) return {};
+  return {{"count", c.participants},
+          {"z", c.by_participant.z},
+          {"p", c.by_participant.p()},
+          {"rank_biserial", c.by_participant.rank_biserial}};
+}
+
 Json group_json(const std::string& a, const std::string& b, const PairedGroup& group,
                 const std::vector<study::Comparison>& comparisons) {
   Json list = Json::array();
@@ -32,6 +40,7 @@ Json group_json(const std::string& a, const std::string& b, const PairedGroup& g
          {"p_normal", c.test.p_normal},
          {"p_exact", c.test.p_exact ? Json(*c.test.p_exact) : Json()},
          {"p_holm", json_number(c.p_holm)},
+         {"participants", participants_json(c)},
          {"effect_r", c.test.effect_r},
          {"rank_biserial", c.test.rank_biserial},
          {"difference", {json_number(c.difference.low), json_number(c.difference.high)}}});
@@ -59,6 +68,10 @@ std::string probability(double p) {
   if (p < 0.001) return "<.001";
   const std::string text = fixed(p, 3);
   return text.front() == '0' ? text.substr(1) : text;
+}
+
+std::string participants_probability(const study::Comparison& c) {
+  return c.participants > 1 ? probability(c.by_participant.p()) : "-";
 }
 
 Json json_number(double value) {

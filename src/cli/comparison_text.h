@@ -16,6 +16,9 @@ std::string significant(double value);
 /// "<.001", ".042"; "-" for what is not a number.
 std::string probability(double p);
 
+/// p of the test over participants; "-" where there are not two of them.
+std::string participants_probability(const study::Comparison& c);
+
 /// null for what is not a number, which JSON has not.
 nlohmann::ordered_json json_number(double value);
 /// Groups of pairs of two methods with their comparisons, for programs; beside them the paper's

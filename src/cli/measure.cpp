@@ -7,7 +7,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <mimicry/base/error.h>
@@ -22,6 +24,7 @@
 #include "cli/embedding_input.h"
 #include "cli/mesh_input.h"
 #include "cli/participant.h"
+#include "cli/simulated_drawing.h"
 #include "cli/target_curves.h"
 
 namespace mimicry::cli {
@@ -60,8 +63,7 @@ struct Rejected {
 };
 
 struct Outcome {
-  std::string rows;
-  std::size_t measured = 0;
+  std::vector<std::vector<io::Cell>> rows;  // `simulated` last
   std::size_t failed_filters = 0;
   std::vector<Rejected> rejected;
   std::vector<std::string> notes;
@@ -104,7 +106,7 @@ std::map<Index, MeasuredShape> load_shapes(const std::vector<Participant>& parti
 
 const char* const kFirstColumns[] = {"method", "shape", "index", "curve", "repeat", "task"};
 
-std::string heading(bool all, bool participant) {
+std::string heading(bool all, bool participant, bool simulated) {
   std::vector<std::string> columns(std::begin(kFirstColumns), std::end(kFirstColumns));
   const auto add = [&](std::span<const std::string> more) {
     columns.insert(columns.end(), more.begin(), more.end());
@@ -113,6 +115,7 @@ std::string heading(bool all, bool participant) {
   columns.push_back("pieces");
   if (all) add(io::more_measure_columns());
   if (participant) columns.push_back("participant");
+  if (simulated) columns.emplace_back("simulated");
   return io::csv_heading(columns);
 }
 
@@ -199,8 +202,8 @@ class Measurer {
     cells.push_back(static_cast<std::int64_t>(study::piece_count(stroke)));
     if (args_.all) add(io::more_measure_cells(measures));
     if (participant_) cells.push_back(job.participant->name);
-    outcome.rows += io::csv_line(cells);
-    ++outcome.measured;
+    cells.push_back(simulation_cell(stroke.simulated));
+    outcome.rows.push_back(std::move(cells));
     outcome.failed_filters += measures.filters.passed() ? 0 : 1;
   }
 
@@ -267,11 +270,16 @@ void run_measure(const MeasureArguments& args, int& status) {
     });
   }
 
-  std::string rows = heading(args.all, several);
+  bool simulated = false;
+  for (const Outcome& outcome : outcomes)
+    for (const auto& row : outcome.rows)
+      simulated = simulated || !std::holds_alternative<std::monostate>(row.back());
+  std::string rows = heading(args.all, several, simulated);
   std::size_t measured = 0, failed = 0;
   for (const Outcome& outcome : outcomes) {
-    rows += outcome.rows;
-    measured += outcome.measured;
+    for (const auto& row : outcome.rows)
+      rows += io::csv_line(std::span(row).first(row.size() - (simulated ? 0 : 1)));
+    measured += outcome.rows.size();
     failed += outcome.failed_filters;
     rejected.insert(rejected.end(), outcome.rejected.begin(), outcome.rejected.end());
     for (const std::string& note : outcome.notes) complain(note);

@@ -58,6 +58,8 @@ PairedGroup group_of(const std::string& name, const std::vector<Pair>& pairs,
                      const std::vector<std::size_t>& filters, const io::CsvTable& table) {
   PairedGroup group;
   group.name = name;
+  const auto participant = table.find("participant");
+  std::map<std::string, std::size_t> persons;
   for (const std::size_t column : measures)
     group.measures.push_back({table.columns[column], {}, {}});
   for (const Pair& pair : pairs) {
@@ -75,7 +77,11 @@ PairedGroup group_of(const std::string& name, const std::vector<Pair>& pairs,
     const auto number = [](const std::string& cell) {
       return io::parse_double(cell).value_or(std::numeric_limits<double>::quiet_NaN());
     };
+    std::size_t person = 0;
+    if (participant)
+      person = persons.try_emplace((*pair.a)[*participant], persons.size()).first->second;
     for (std::size_t m = 0; m < measures.size(); ++m) {
+      if (participant) group.measures[m].participants.push_back(person);
       group.measures[m].a.push_back(number((*pair.a)[measures[m]]));
       group.measures[m].b.push_back(number((*pair.b)[measures[m]]));
     }

@@ -11,8 +11,6 @@
 #include <mimicry/files/file.h>
 #include <mimicry/files/output_lock.h>
 #include <mimicry/io/study_recording.h>
-#include <mimicry/session/stroke_session.h>
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/participants.h>
 
 #include "cli/canvas.h"
@@ -20,6 +18,7 @@
 #include "cli/console.h"
 #include "cli/embedding_input.h"
 #include "cli/interrupt.h"
+#include "cli/simulated_drawing.h"
 #include "cli/study_shapes.h"
 
 namespace mimicry::cli {
@@ -59,11 +58,6 @@ std::vector<Method> methods_of(const std::vector<std::string>& names) {
   return methods;
 }
 
-// The nozzle of only this technique decides in every frame.
-study::Steering steering_of(const technique::TechniqueInfo& info) {
-  return info.name == "spraycan" ? study::Steering::aims : study::Steering::moves;
-}
-
 std::string folder_of(const ParticipantsArguments& args, Index number) {
   char name[32];
   std::snprintf(name, sizeof name, "p%02d", static_cast<int>(number));
@@ -83,27 +77,15 @@ struct Study {
 study::RecordedStroke draw(const technique::Canvas& canvas, const StudyShape& shape,
                            const Method& method, const study::Trial& trial, const Study& study,
                            const study::Participant& person, std::uint64_t slot) {
-  const spatial::Target& target = *canvas.target;
   const study::TargetCurve& curve = shape.shape->curves[static_cast<std::size_t>(trial.curve)];
-  const std::vector<Index> keypoints =
-      curve.keypoints.empty()
-          ? study::keypoints(target.mesh(), target.half_edges(), curve.points, shape.shape->scale)
-          : curve.keypoints;
   const stroke::Intention intended{shape.shape->name + "-" + std::to_string(trial.curve), false,
                                    curve.points};
-  const Similarity placed = placement(target, shape.shape->scale, false);
-  session::SessionOptions options;
-  options.misses = session::MissPolicy::split;
-  session::StrokeSession session(canvas, *method.technique, options);
-  session.begin(placed);
-  const stroke::Stroke stroke = study::draw_trial(
-      target, intended, keypoints, trial.task, placed, study.population, person,
-      steering_of(*method.technique), slot, [&](const stroke::Frame& frame) -> std::optional<Vec3> {
-        if (session.add(frame) != session::FrameStatus::inked) return std::nullopt;
-        return placed.point(session.curve().points.back().position);
-      });
-  session.end();
-  study::RecordedStroke recorded = study::record(stroke, session.curve(), method.word);
+  const Similarity placed = placement(*canvas.target, shape.shape->scale, false);
+  const SimulatedDrawing drawn =
+      draw_simulated(canvas, *method.technique,
+                     {intended, curve.keypoints, trial.task, placed, study.args.seed, slot},
+                     study.population, person);
+  study::RecordedStroke recorded = study::record(drawn.stroke, drawn.curve, method.word);
   for (study::RecordedPiece& piece : recorded.pieces)
     for (study::RecordedFrame& frame : piece.frames)
       frame.time_ms += 1e3 * kStrokeSlot_s * static_cast<double>(slot);

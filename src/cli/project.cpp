@@ -3,19 +3,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
 #include <mimicry/files/output_lock.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/io/curves_glb.h>
+#include <mimicry/io/curves_ply.h>
 #include <mimicry/io/number.h>
 #include <mimicry/io/strokes.h>
+#include <mimicry/io/tube_mesh.h>
 #include <mimicry/render/palette.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/polyline.h>
@@ -24,6 +23,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/project_table.h"
 
 namespace mimicry::cli {
 namespace {
@@ -41,53 +41,20 @@ struct ProjectArguments {
   std::string misses = "connect";
   std::string embedding;  // file; empty: baked when needed
   BakeSettings bake;
+  std::string beside;  // a second strokes file, for the table only
+  std::string obj_lines = "segments";
+  std::string curves_as = "tubes";
+  std::string tube_width = "pressure";
   double minimum_motion_mm = 0.0;
   double tube_radius = 0.0;  // model units; 0: a fraction of the diagonal
   spatial::TargetOptions target;
   bool json = false;
 };
 
-struct StrokeCounts {
-  std::string stroke;
-  std::size_t points;
-  session::AnswerCounts answers;
-};
-
-// What the table says of one technique, over all strokes.
-struct TechniqueRow {
-  const TechniqueInfo* technique = nullptr;
-  std::size_t frames = 0;
-  std::size_t points = 0;
-  std::size_t missed = 0;
-  double length_m = 0.0;
-  double distance_sum_m = 0.0;  // to the intended curves
-  std::size_t distances = 0;    // strokes that have one
-  double seconds = 0.0;
-  std::vector<StrokeCounts> strokes = {};
-
-  // Plain closest points in place of smooth ones.
-  std::size_t fallbacks() const {
-    Index sum = 0;
-    for (const StrokeCounts& s : strokes)
-      for (const auto answer : {technique::Answer::outside_shell,
-                                technique::Answer::no_phong_solution, technique::Answer::replaced})
-        sum += s.answers[answer];
-    return static_cast<std::size_t>(sum);
-  }
-};
-
-std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
-  bool all = names.empty();
-  std::set<const TechniqueInfo*> named;
-  for (const std::string& name : names)
-    if (name == "all")
-      all = true;
-    else
-      named.insert(&technique::find_technique(name));
-  std::vector<const TechniqueInfo*> chosen;
-  for (const TechniqueInfo& info : technique::techniques())
-    if (all || named.contains(&info)) chosen.push_back(&info);
-  return chosen;
+// A stroke that saw a technique's ink belongs to that technique, unless techniques were named.
+bool draws(const TechniqueInfo& info, const Stroke& stroke, const ProjectArguments& args) {
+  return !args.techniques.empty() || !stroke.simulated || stroke.simulated->technique.empty() ||
+         stroke.simulated->technique == info.name;
 }
 
 struct OptionValue {
@@ -179,6 +146,7 @@ io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
   row.points += curve.points.size();
   row.missed += static_cast<std::size_t>(session.counts()[session::FrameStatus::missed]);
   row.strokes.push_back({stroke.id, curve.points.size(), session.answers()});
+  row.measures.add(target, stroke, curve);
   row.length_m += stroke.model_to_world.scale * curve::length(curve);
   if (stroke.intended && !stroke.intended->points.empty() && !curve.points.empty()) {
     row.distance_sum_m += study::mean_corresponding_distance(
@@ -205,71 +173,60 @@ std::array<unsigned char, 3> color_of(const std::string& technique) {
 }
 
 std::string file_bytes(const std::string& format, const io::CurveSet& set, const TriangleMesh& mesh,
-                       double tube_radius) {
+                       const ProjectArguments& args, double tube_radius) {
   std::vector<std::array<unsigned char, 3>> colors;
   for (const io::CurveRecord& record : set.curves) colors.push_back(color_of(record.technique));
   if (format == "json") return io::write_curves_json(set, mesh);
-  if (format == "obj") return io::write_curves_obj(set, mesh);
+  if (format == "obj")
+    return io::write_curves_obj(
+        set, mesh,
+        args.obj_lines == "polylines" ? io::ObjLines::polylines : io::ObjLines::segments);
   if (format == "csv") return io::write_curves_csv(set, mesh);
-  if (format == "glb") return io::write_curves_glb(set, mesh, colors, tube_radius);
-  return io::write_curves_ply(set, mesh, colors);
+  const bool lines = args.curves_as == "lines";
+  if (format == "glb")
+    return lines ? io::write_curves_glb_lines(set, mesh, colors)
+                 : io::write_curves_glb(set, mesh, colors, tube_radius);
+  return lines ? io::write_curves_ply_lines(set, mesh, colors)
+               : io::write_curves_ply(set, mesh, colors, tube_radius);
 }
 
-void print_rows(const std::vector<TechniqueRow>& rows) {
-  std::vector<std::vector<std::string>> cells;
-  for (const TechniqueRow& row : rows)
-    cells.push_back(
-        {std::string(row.technique->name), std::to_string(row.points), std::to_string(row.missed),
-         row.technique->needs_bake ? std::to_string(row.fallbacks()) : "-",
-         fixed(100.0 * row.length_m, 1),
-         row.distances > 0 ? fixed(1e3 * row.distance_sum_m / double(row.distances), 1) : "-",
-         row.frames > 0 ? fixed(1e6 * row.seconds / double(row.frames), 2) : "-"});
-  print_table({"technique", "points", "missed", "not smooth", "length cm",
-               "off the intended curve mm", "microseconds a frame"},
-              cells);
+// As thick as the pen was pressed; none for a device without pressure.
+std::vector<double> radii_of(const Stroke& stroke, const curve::ProjectedCurve& curve,
+                             double tube_radius) {
+  std::vector<double> radii;
+  const auto& frames = stroke.frames;
+  if (std::none_of(frames.begin(), frames.end(), [](const auto& f) { return f.pressure; }))
+    return radii;
+  for (const curve::CurvePoint& p : curve.points)
+    radii.push_back(tube_radius *
+                    io::width_of_pressure(frames[static_cast<std::size_t>(p.frame)].pressure));
+  return radii;
 }
 
-void print_json(const std::vector<TechniqueRow>& rows, const std::vector<std::string>& files) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const TechniqueRow& row : rows) {
-    nlohmann::ordered_json entry = {{"technique", row.technique->name},
-                                    {"frames", row.frames},
-                                    {"points", row.points},
-                                    {"missed", row.missed},
-                                    {"length_m", row.length_m}};
-    entry["mean_distance_to_intended_m"] =
-        row.distances > 0 ? nlohmann::ordered_json(row.distance_sum_m / double(row.distances))
-                          : nlohmann::ordered_json();
-    entry["seconds_per_frame"] = row.frames > 0
-                                     ? nlohmann::ordered_json(row.seconds / double(row.frames))
-                                     : nlohmann::ordered_json();
-    for (const StrokeCounts& s : row.strokes) {
-      nlohmann::ordered_json answers = nlohmann::ordered_json::object();
-      for (std::size_t a = 0; a < technique::kAnswerCount; ++a)
-        if (s.answers.by_answer[a] > 0)
-          answers[std::string(technique::answer_name(static_cast<technique::Answer>(a)))] =
-              s.answers.by_answer[a];
-      entry["strokes"].push_back(
-          {{"stroke", s.stroke}, {"points", s.points}, {"answers", answers}});
-    }
-    list.push_back(entry);
-  }
-  std::printf("%s\n", json_text({{"techniques", list}, {"files", files}}).c_str());
-}
-
-void run_project(const ProjectArguments& args) {
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
-  const std::string strokes_name = std::filesystem::path(args.strokes).filename().string();
-  const std::vector<Stroke> strokes =
-      io::read_strokes(files::read_file(args.strokes), strokes_name);
+std::vector<Stroke> load_strokes(const std::string& path, const NamedMesh& named) {
+  std::vector<Stroke> strokes =
+      io::read_strokes(files::read_file(path), std::filesystem::path(path).filename().string());
   for (const Stroke& stroke : strokes) {
     require_on_mesh(stroke, named);
     if (stroke.target != named.name)
       complain("stroke '" + stroke.id + "' was drawn on '" + stroke.target +
                "'; it is projected on '" + named.name + "'");
   }
-  const auto chosen = chosen_techniques(args.techniques);
+  return strokes;
+}
+
+void run_project(const ProjectArguments& args) {
+  const NamedMesh named = load_mesh(args.mesh);
+  const spatial::Target target = make_target(named, args.target);
+  const std::vector<Stroke> strokes = load_strokes(args.strokes, named);
+  std::vector<Stroke> beside;
+  if (!args.beside.empty()) beside = load_strokes(args.beside, named);
+  auto chosen = chosen_techniques(args.techniques);
+  if (!strokes.empty())
+    std::erase_if(chosen, [&](const TechniqueInfo* info) {
+      return std::none_of(strokes.begin(), strokes.end(),
+                          [&](const Stroke& stroke) { return draws(*info, stroke, args); });
+    });
   std::vector<OptionValue> given;
   for (const std::string& text : args.options) given.push_back(parse_option(text));
   require_known(given, chosen);
@@ -282,6 +239,7 @@ void run_project(const ProjectArguments& args) {
   const auto output_lock = files::OutputLock::of_folder(args.out);
   const PreparedCanvas prepared(target, chosen, args.embedding, args.bake);
 
+  const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
   io::CurveSet set{named.name, {}};
   std::vector<TechniqueRow> rows;
   {
@@ -290,25 +248,33 @@ void run_project(const ProjectArguments& args) {
       options.technique = options_for(*info, given);
       rows.push_back({.technique = info});
       for (const Stroke& stroke : strokes) {
-        set.curves.push_back(draw(prepared.canvas(), *info, stroke, options, rows.back()));
-        progress.update(set.curves.size(), chosen.size() * strokes.size());
+        if (!draws(*info, stroke, args)) continue;
+        io::CurveRecord record = draw(prepared.canvas(), *info, stroke, options, rows.back());
+        if (args.tube_width == "pressure") record.radii = radii_of(stroke, record.curve, radius);
+        set.curves.push_back(std::move(record));
       }
+      TechniqueRow other;
+      for (const Stroke& stroke : beside)
+        if (draws(*info, stroke, args)) draw(prepared.canvas(), *info, stroke, options, other);
+      rows.back().beside = other.measures;
+      progress.update(rows.size(), chosen.size());
     }
   }
 
   const std::filesystem::path folder(args.out);
-  const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
   // All bytes are made before the first file is written.
   std::vector<std::string> bytes;
   for (const std::string& format : args.formats)
-    bytes.push_back(file_bytes(format, set, target.mesh(), radius));
+    bytes.push_back(file_bytes(format, set, target.mesh(), args, radius));
   std::vector<std::string> written;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     written.push_back((folder / ("curves." + args.formats[i])).string());
     files::write_file_atomically(written.back(), bytes[i]);
   }
-  if (args.json) return print_json(rows, written);
-  print_rows(rows);
+  if (args.json) return print_rows_json(rows, written);
+  TableTitles titles{drawers_of(strokes), {}};
+  if (!args.beside.empty()) titles.beside = drawers_of(beside);
+  print_rows(rows, titles);
   for (const std::string& file : written) std::printf("%s\n", file.c_str());
 }
 
@@ -319,8 +285,13 @@ void add_project(CLI::App& app, int&) {
   auto args = std::make_shared<ProjectArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
   command->add_option("strokes", args->strokes, "A mimicry-strokes file")->required();
-  command->add_option("-t,--techniques", args->techniques, "Names, or all (mimicry techniques)")
+  command
+      ->add_option("-t,--techniques", args->techniques,
+                   "Names, or all (mimicry techniques); without it all, and strokes of people who "
+                   "saw one technique's ink that one alone")
       ->delimiter(',');
+  command->add_option("--beside", args->beside,
+                      "Another strokes file, whose measures stand beside in the table");
   command->add_option("--option", args->options,
                       "A technique's option, NAME=NUMBER[,NUMBER,NUMBER]");
   command->add_option(
@@ -340,9 +311,26 @@ void add_project(CLI::App& app, int&) {
                    "Pass over frames whose pen moved less")
       ->check(number_between(0, 1e12));
   command
+      ->add_option("--curves-as", args->curves_as,
+                   "In GLB and PLY files: tubes of triangles, or lines, which fewer readers know")
+      ->check(CLI::IsMember({"tubes", "lines"}))
+      ->capture_default_str();
+  command
       ->add_option("--tube-radius", args->tube_radius,
-                   "Of the tubes in the GLB file, mesh units (default 0.3 % of the diagonal)")
+                   "Of these tubes, mesh units (default 0.3 % of the diagonal)")
       ->check(number_between(1e-12, 1e12));
+  command
+      ->add_option("--tube-width", args->tube_width,
+                   "Where the pen's pressure is known: 0.35 to 1.65 radii by it, or constant")
+      ->check(CLI::IsMember({"pressure", "constant"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--obj-lines", args->obj_lines,
+          "In OBJ files: a line element for each of a curve's segments, or long polylines, "
+          "of which some importers keep the ends alone")
+      ->check(CLI::IsMember({"segments", "polylines"}))
+      ->capture_default_str();
   add_target_options(*command, args->target);
   command->add_flag("--json", args->json, "The table for programs");
   command->callback([args] { run_project(*args); });

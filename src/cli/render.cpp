@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -118,10 +119,38 @@ void add_curve(render::Scene& scene, const io::CurveRecord& record, const Triang
   }
 }
 
-// One panel for each technique, in the order of the curve file.
+bool came_from(const io::CurveRecord& record, const stroke::Stroke& stroke) {
+  return record.stroke == stroke.id;
+}
+
+// The strokes that these curves came from; all where they came from none of them.
+std::vector<stroke::Stroke> strokes_of(const std::vector<stroke::Stroke>& strokes,
+                                       const std::vector<io::CurveRecord>& curves) {
+  std::vector<stroke::Stroke> some;
+  for (const stroke::Stroke& stroke : strokes)
+    if (std::any_of(curves.begin(), curves.end(),
+                    [&](const io::CurveRecord& record) { return came_from(record, stroke); }))
+      some.push_back(stroke);
+  return some.empty() ? strokes : some;
+}
+
+void add_strokes(render::Scene& scene, const std::vector<stroke::Stroke>& strokes, bool intended,
+                 const TriangleMesh& mesh, double radius) {
+  for (const stroke::Stroke& stroke : strokes) {
+    scene.tubes.push_back(stroke_tube(stroke, radius));
+    if (intended && stroke.intended)
+      scene.tubes.push_back(intended_tube(*stroke.intended, mesh, radius));
+  }
+}
+
+// One panel for each technique, in the order of the curve file, with the strokes that it drew.
+template <class ShowStrokes>
 std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveSet& set,
-                                     const TriangleMesh& mesh, double radius) {
+                                     const TriangleMesh& mesh, double radius,
+                                     ShowStrokes&& show_strokes) {
   std::vector<render::Scene> panels;
+  std::map<std::string, std::vector<io::CurveRecord>> by_technique;
+  for (const io::CurveRecord& record : set.curves) by_technique[record.technique].push_back(record);
   for (const io::CurveRecord& record : set.curves) {
     render::Scene* panel = nullptr;
     for (render::Scene& p : panels)
@@ -132,6 +161,7 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveS
       panel->caption = record.technique;
       panel->caption_color = render::technique_color(record.technique);
       panel->caption_swatch = true;
+      show_strokes(*panel, by_technique[record.technique]);
     }
     add_curve(*panel, record, mesh, radius);
   }
@@ -155,12 +185,8 @@ void run_render(const RenderArguments& args) {
   std::vector<stroke::Stroke> strokes;
   if (!args.strokes.empty())
     strokes = io::read_strokes(files::read_file(args.strokes), name_of(args.strokes));
-  for (const stroke::Stroke& stroke : strokes) {
-    if (!args.stroke.empty() && stroke.id != args.stroke) continue;
-    scene.tubes.push_back(stroke_tube(stroke, radius));
-    if (args.intended && stroke.intended)
-      scene.tubes.push_back(intended_tube(*stroke.intended, drawn_on, radius));
-  }
+  if (!args.stroke.empty())
+    std::erase_if(strokes, [&](const stroke::Stroke& s) { return s.id != args.stroke; });
   io::CurveSet set;
   if (!args.curves.empty())
     set = io::read_curves_json(files::read_file(args.curves), name_of(args.curves), named.mesh);
@@ -171,7 +197,7 @@ void run_render(const RenderArguments& args) {
                                                   record.technique) == args.techniques.end());
   });
 
-  if (!args.stroke.empty() && set.curves.empty() && scene.tubes.empty())
+  if (!args.stroke.empty() && set.curves.empty() && strokes.empty())
     throw Error(ErrorKind::invalid_input, "render: no stroke or curve has the id '" + args.stroke +
                                               "'; give one of the file's");
 
@@ -180,8 +206,11 @@ void run_render(const RenderArguments& args) {
   camera.elevation_deg = args.elevation;
   camera.zoom = args.zoom;
   render::Image image;
+  const auto show_strokes = [&](render::Scene& to, const std::vector<io::CurveRecord>& curves) {
+    add_strokes(to, strokes_of(strokes, curves), args.intended, drawn_on, radius);
+  };
   if (args.side_by_side) {
-    const auto panels = panels_of(scene, set, named.mesh, radius);
+    const auto panels = panels_of(scene, set, named.mesh, radius, show_strokes);
     if (panels.empty())
       throw Error(ErrorKind::invalid_input,
                   "render: --side-by-side has nothing to show; give --curves a file with curves");
@@ -191,6 +220,7 @@ void run_render(const RenderArguments& args) {
     if (args.height > 0) options.panel.height = args.height;
     image = render::figure(panels, camera, options);
   } else {
+    show_strokes(scene, set.curves);
     for (const io::CurveRecord& record : set.curves) add_curve(scene, record, named.mesh, radius);
     render::RenderOptions options;
     if (args.width > 0) options.width = args.width;
@@ -210,7 +240,9 @@ void add_render(CLI::App& app, int&) {
   auto* command = app.add_subcommand("render", "Make a picture of a mesh, strokes and curves");
   auto args = std::make_shared<RenderArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
-  command->add_option("--strokes", args->strokes, "A mimicry-strokes file, drawn in black");
+  command->add_option(
+      "--strokes", args->strokes,
+      "A mimicry-strokes file, drawn in black: the strokes of the curves that are shown");
   command->add_option("--curves", args->curves, "A mimicry-curves file, one colour a technique");
   command->add_option(
       "--distances", args->distances,

@@ -13,14 +13,16 @@
 #include <mimicry/study/keypoints.h>
 #include <mimicry/study/recording.h>
 
+#include "cli/simulated_drawing.h"
+
 namespace mimicry::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::vector<std::string> make_columns() {
-  std::vector<std::string> columns = {"participant", "stroke", "method", "shape",
-                                      "index",       "curve",  "repeat", "task"};
+  std::vector<std::string> columns = {"participant", "stroke", "method", "shape",    "index",
+                                      "curve",       "repeat", "task",   "simulated"};
   const auto add = [&](std::span<const std::string> more) {
     columns.insert(columns.end(), more.begin(), more.end());
   };
@@ -135,6 +137,7 @@ struct Replayer::Row {
   std::string participant, stroke, shape, curve, task;
   std::optional<std::size_t> index;
   bool repeat = false;
+  io::Cell simulated;
 
   std::vector<io::Cell> cells(const std::string& method) const {
     const auto text = [](const std::string& s) -> io::Cell {
@@ -143,8 +146,8 @@ struct Replayer::Row {
     };
     io::Cell number;
     if (index) number = static_cast<std::int64_t>(*index);
-    return {text(participant), text(stroke),         method,    text(shape), number,
-            text(curve),       std::int64_t{repeat}, text(task)};
+    return {text(participant), text(stroke),         method,     text(shape), number,
+            text(curve),       std::int64_t{repeat}, text(task), simulated};
   }
 };
 
@@ -250,6 +253,7 @@ void Replayer::replay_text(const ReplayJob& job, ReplayRows& rows) const {
         [&](stroke::Stroke&& stroke) {
           if (!stroke.id.empty()) row.stroke = stroke.id;
           row.shape = stroke.target;
+          row.simulated = simulation_cell(stroke.simulated);
           const auto refuse = [&](const std::string& why) {
             throw Error(ErrorKind::invalid_input,
                         job.source + ": stroke " + std::to_string(job.index) + ": " + why);
@@ -318,6 +322,7 @@ void Replayer::replay_recording(const ReplayJob& job, ReplayRows& rows) const {
   }
   for (std::size_t i = 0; i < std::max(strokes.size(), trials.size()); ++i) {
     name_stroke(i);
+    row.simulated = simulation_cell(i < strokes.size() ? strokes[i].simulated : std::nullopt);
     try {
       const auto refuse = [](const std::string& why) {
         throw Error(ErrorKind::invalid_input, why);

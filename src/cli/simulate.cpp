@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include <mimicry/files/output_lock.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/session/stroke_session.h>
 #include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
 
@@ -18,6 +18,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/simulated_drawing.h"
 #include "cli/study_shapes.h"
 #include "cli/target_curves.h"
 
@@ -30,11 +31,11 @@ struct SimulateArguments {
   std::string targets;
   std::string out;
   std::vector<std::string> curves;
-  std::string closed_loop;  // technique whose ink is seen
+  std::vector<std::string> closed_loop;  // techniques whose ink is seen
   int count = 1;
   std::uint64_t seed = 1;
   double rate_hz = 90.0;
-  double distance_m = 0.048;
+  std::optional<double> distance_m;
   double scale = 0.0;  // metres per mesh unit
   std::string up = "y";
   spatial::TargetOptions target;
@@ -85,18 +86,31 @@ Task task_of(const SimulateArguments& args, const NamedMesh& named, const spatia
   return {study::intended_curves(shape, target), info->metres_per_unit};
 }
 
-stroke::Stroke make_stroke(const technique::Canvas& canvas, const stroke::Intention& intended,
-                           const Similarity& placed, const study::SimulationOptions& options,
-                           std::uint64_t seed, const technique::TechniqueInfo* technique) {
-  if (technique == nullptr) return study::simulate(*canvas.target, intended, placed, options, seed);
-  session::StrokeSession session(canvas, *technique);
-  session.begin(placed);
-  return study::simulate_closed_loop(*canvas.target, intended, placed, options, seed,
-                                     [&](const stroke::Frame& frame) -> std::optional<Vec3> {
-                                       if (session.add(frame) != session::FrameStatus::inked)
-                                         return std::nullopt;
-                                       return placed.point(session.curve().points.back().position);
-                                     });
+// Blind: drawn from start to end without a look at the ink.
+stroke::Stroke open_loop_stroke(const spatial::Target& target, const stroke::Intention& intended,
+                                const Similarity& placed, const SimulateArguments& args,
+                                std::uint64_t number) {
+  study::SimulationOptions options;
+  options.rate_hz = args.rate_hz;
+  if (args.distance_m) options.mean_distance_m = *args.distance_m;
+  stroke::Stroke stroke = study::simulate(target, intended, placed, options, args.seed + number);
+  stroke.simulated = simulation_mark(args.seed, "");
+  return stroke;
+}
+
+// The k-th person draws the curve with the technique; all techniques get the same people.
+stroke::Stroke closed_loop_stroke(const technique::Canvas& canvas,
+                                  const technique::TechniqueInfo& technique,
+                                  const stroke::Intention& intended, const Similarity& placed,
+                                  const SimulateArguments& args, std::size_t curve, int k) {
+  const study::PopulationOptions population;
+  study::Participant person = study::participant(population, args.seed, k);
+  person.hand.rate_hz = args.rate_hz;
+  if (args.distance_m) person.hand.mean_distance_m = *args.distance_m;
+  return draw_simulated(canvas, technique,
+                        {intended, {}, study::TaskKind::tracing, placed, args.seed, curve},
+                        population, person)
+      .stroke;
 }
 
 bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) {
@@ -113,31 +127,35 @@ void run_simulate(const SimulateArguments& args) {
   const Task task = task_of(args, named, target);
   const double scale = args.scale > 0.0 ? args.scale : task.metres_per_unit;
   const Similarity placed = placement(target, scale, args.up == "z");
-  study::SimulationOptions options;
-  options.rate_hz = args.rate_hz;
-  options.mean_distance_m = args.distance_m;
-
-  const technique::TechniqueInfo* technique =
-      args.closed_loop.empty() ? nullptr : &technique::find_technique(args.closed_loop);
-  const PreparedCanvas prepared(target, std::span(&technique, technique == nullptr ? 0 : 1));
+  const std::vector<const technique::TechniqueInfo*> seen =
+      args.closed_loop.empty() ? std::vector<const technique::TechniqueInfo*>{nullptr}
+                               : chosen_techniques(args.closed_loop);
+  std::vector<const technique::TechniqueInfo*> needed = seen;
+  std::erase(needed, nullptr);
+  const PreparedCanvas prepared(target, needed);
 
   std::vector<stroke::Stroke> strokes;
   ProgressLine progress("drawing");
   std::size_t total = 0;
   for (const auto& curve : task.curves)
     if (is_chosen(args.curves, curve.name)) total += static_cast<std::size_t>(args.count);
-  for (std::size_t c = 0; c < task.curves.size(); ++c) {
-    if (!is_chosen(args.curves, task.curves[c].name)) continue;
-    for (int k = 0; k < args.count; ++k) {
-      // A curve's strokes stay the same when others are left out.
-      const std::uint64_t seed = args.seed + 1000 * c + static_cast<std::uint64_t>(k);
-      strokes.push_back(
-          make_stroke(prepared.canvas(), task.curves[c], placed, options, seed, technique));
-      strokes.back().target = named.name;
-      if (args.count > 1) strokes.back().id += "#" + std::to_string(k);
-      progress.update(strokes.size(), total);
+  total *= seen.size();
+  for (const technique::TechniqueInfo* technique : seen)
+    for (std::size_t c = 0; c < task.curves.size(); ++c) {
+      if (!is_chosen(args.curves, task.curves[c].name)) continue;
+      for (int k = 0; k < args.count; ++k) {
+        // A curve's strokes stay the same when others are left out.
+        const std::uint64_t number = 1000 * c + static_cast<std::uint64_t>(k);
+        strokes.push_back(technique == nullptr
+                              ? open_loop_stroke(target, task.curves[c], placed, args, number)
+                              : closed_loop_stroke(prepared.canvas(), *technique, task.curves[c],
+                                                   placed, args, c, k));
+        strokes.back().target = named.name;
+        if (args.count > 1) strokes.back().id += "#" + std::to_string(k);
+        if (seen.size() > 1) strokes.back().id += "@" + std::string(technique->name);
+        progress.update(strokes.size(), total);
+      }
     }
-  }
   if (strokes.empty()) {
     std::string names;
     for (const auto& curve : task.curves) names += (names.empty() ? "" : ", ") + curve.name;
@@ -168,10 +186,14 @@ void add_simulate(CLI::App& app, int&) {
   command->add_option("--rate", args->rate_hz, "Frames a second")
       ->check(number_between(20, 1000))
       ->capture_default_str();
-  command->add_option("--distance", args->distance_m, "Mean distance from hand to surface, metres")
-      ->capture_default_str();
-  command->add_option("--closed-loop", args->closed_loop,
-                      "The person sees this technique's ink and corrects the visible error");
+  command->add_option(
+      "--distance", args->distance_m,
+      "Mean distance from hand to surface, metres (default: 0.048, in closed loop about 0.046)");
+  command
+      ->add_option("--closed-loop", args->closed_loop,
+                   "People see the ink of these techniques, or all, and correct it (simulated "
+                   "participants); strokes for each")
+      ->delimiter(',');
   command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();

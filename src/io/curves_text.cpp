@@ -18,10 +18,16 @@ void append_position(std::string& out, const Vec3& x, char separator) {
   append_double(out, x.z());
 }
 
-std::string one_line(std::string name) {
-  for (char& c : name)
-    if (c == '\n' || c == '\r') c = ' ';
-  return name;
+// Vertices [first, end) of an OBJ file joined in their order.
+void append_lines(std::string& out, std::size_t first, std::size_t end, ObjLines lines) {
+  if (lines == ObjLines::segments) {
+    for (std::size_t v = first; v + 1 < end; ++v)
+      out += "l " + std::to_string(v) + ' ' + std::to_string(v + 1) + '\n';
+    return;
+  }
+  out += 'l';
+  for (std::size_t v = first; v < end; ++v) out += ' ' + std::to_string(v);
+  out += '\n';
 }
 
 void append_csv_place(std::string& row, const Vec3& position, const SurfacePoint& surface) {
@@ -32,7 +38,7 @@ void append_csv_place(std::string& row, const Vec3& position, const SurfacePoint
 
 }  // namespace
 
-std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh) {
+std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh, ObjLines lines) {
   std::string out = "# curves on " + one_line(set.target) + "\n";
   std::size_t vertex = 1;  // OBJ counts from 1 through the whole file
   for (const CurveRecord& record : set.curves) {
@@ -44,11 +50,7 @@ std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh) {
         out += '\n';
       }
       // A lone point has no line.
-      if (part.size() > 1) {
-        out += 'l';
-        for (std::size_t i = 0; i < part.size(); ++i) out += ' ' + std::to_string(vertex + i);
-        out += '\n';
-      }
+      if (part.size() > 1) append_lines(out, vertex, vertex + part.size(), lines);
       vertex += part.size();
     }
   }
@@ -86,36 +88,6 @@ std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh) {
     }
   }
   return out;
-}
-
-std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
-                             std::span<const std::array<unsigned char, 3>> colors) {
-  std::string vertices;
-  std::string edges;
-  std::size_t vertex_count = 0;
-  std::size_t edge_count = 0;
-  for (std::size_t c = 0; c < set.curves.size(); ++c) {
-    std::string tail;
-    for (const unsigned char channel : colors[c]) tail += ' ' + std::to_string(channel);
-    tail += ' ' + std::to_string(c) + '\n';
-    for (const auto& part : curve::polylines(set.curves[c].curve, mesh)) {
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        append_position(vertices, part[i], ' ');
-        vertices += tail;
-        if (i > 0) {
-          edges += std::to_string(vertex_count - 1) + ' ' + std::to_string(vertex_count) + '\n';
-          ++edge_count;
-        }
-        ++vertex_count;
-      }
-    }
-  }
-  return "ply\nformat ascii 1.0\ncomment curves on " + one_line(set.target) + "\nelement vertex " +
-         std::to_string(vertex_count) +
-         "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n"
-         "property uchar green\nproperty uchar blue\nproperty int curve\nelement edge " +
-         std::to_string(edge_count) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
-         vertices + edges;
 }
 
 }  // namespace mimicry::io

@@ -10,17 +10,18 @@
 
 namespace mimicry::io {
 
-/// One node of a GLB scene.
+/// One node of a GLB scene: a mesh or lines.
 struct GlbPart {
   std::string name;
   const TriangleMesh* mesh = nullptr;
   std::span<const Vec3> normals;               ///< #V unit normals, or empty
   std::optional<std::array<double, 3>> color;  ///< linear, 0 to 1; without one no material
+  std::span<const std::vector<Vec3>> lines;    ///< polylines; those of a single point do not count
 };
 
-/// A binary glTF 2.0 file with a node for each part that has faces. Of objects far from their
-/// origin, where single precision would show, the nodes carry the offset. Throws as `write_mesh`
-/// does.
+/// A binary glTF 2.0 file with a node for each part that has faces or lines. Of objects far from
+/// their origin, where single precision would show, the nodes carry the offset. Throws as
+/// `write_mesh` does.
 std::string write_glb_scene(std::span<const GlbPart> parts);
 
 }  // namespace mimicry::io

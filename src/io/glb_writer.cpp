@@ -14,6 +14,12 @@ constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
 constexpr int kVertices = 34962;  // ARRAY_BUFFER
 constexpr int kIndices = 34963;   // ELEMENT_ARRAY_BUFFER
+constexpr int kLineStripMode = 3;
+constexpr int kTrianglesMode = 4;
+
+bool has_faces(const GlbPart& part) {
+  return part.mesh != nullptr && part.mesh->face_count() > 0;
+}
 
 // Collects the binary chunk and the lists of the JSON chunk that point into it.
 struct Scene {
@@ -39,15 +45,17 @@ struct Scene {
     return accessors.size() - 1;
   }
 
-  std::size_t add_positions(const TriangleMesh& mesh) {
+  // position(i): of the i-th vertex, in single precision.
+  template <class Position>
+  std::size_t add_positions(Index count, Position&& position) {
     const std::size_t start = binary.size();
     Eigen::AlignedBox3f box;
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const Eigen::Vector3f position = to_single(mesh, v, "GLB", origin);
-      box.extend(position);
-      for (const float x : position) append_little_endian(binary, x);
+    for (Index v = 0; v < count; ++v) {
+      const Eigen::Vector3f x = position(v);
+      box.extend(x);
+      for (const float c : x) append_little_endian(binary, c);
     }
-    const std::size_t accessor = close_view(start, kVertices, kFloat, mesh.vertex_count(), "VEC3");
+    const std::size_t accessor = close_view(start, kVertices, kFloat, count, "VEC3");
     accessors[accessor]["min"] = {box.min()[0], box.min()[1], box.min()[2]};
     accessors[accessor]["max"] = {box.max()[0], box.max()[1], box.max()[2]};
     return accessor;
@@ -67,20 +75,39 @@ struct Scene {
     return close_view(start, kIndices, kUnsignedInt, 3 * mesh.face_count(), "SCALAR");
   }
 
-  void add(const GlbPart& part) {
-    OrderedJson attributes = {{"POSITION", add_positions(*part.mesh)}};
+  OrderedJson triangles(const GlbPart& part) {
+    const TriangleMesh& mesh = *part.mesh;
+    OrderedJson attributes = {{"POSITION", add_positions(mesh.vertex_count(), [&](Index v) {
+                                 return to_single(mesh, v, "GLB", origin);
+                               })}};
     if (!part.normals.empty()) attributes["NORMAL"] = add_normals(part.normals);
-    OrderedJson primitive = {
-        {"attributes", attributes}, {"indices", add_faces(*part.mesh)}, {"mode", 4}};
+    return {{"attributes", attributes}, {"indices", add_faces(mesh)}, {"mode", kTrianglesMode}};
+  }
+
+  OrderedJson line_strip(const std::vector<Vec3>& line) {
+    const auto position = [&](Index v) -> Eigen::Vector3f {
+      return (line[static_cast<std::size_t>(v)] - origin).cast<float>();
+    };
+    const OrderedJson attributes = {
+        {"POSITION", add_positions(static_cast<Index>(line.size()), position)}};
+    return {{"attributes", attributes}, {"mode", kLineStripMode}};
+  }
+
+  void add(const GlbPart& part) {
+    OrderedJson primitives = OrderedJson::array();
+    if (has_faces(part)) primitives.push_back(triangles(part));
+    for (const auto& line : part.lines)
+      if (line.size() > 1) primitives.push_back(line_strip(line));
+    if (primitives.empty()) return;
     if (part.color) {
       const auto& [r, g, b] = *part.color;
       materials.push_back({{"pbrMetallicRoughness",
                             {{"baseColorFactor", {r, g, b, 1.0}},
                              {"metallicFactor", 0.0},
                              {"roughnessFactor", 0.8}}}});
-      primitive["material"] = materials.size() - 1;
+      for (OrderedJson& primitive : primitives) primitive["material"] = materials.size() - 1;
     }
-    OrderedJson mesh = {{"primitives", OrderedJson::array({primitive})}};
+    OrderedJson mesh = {{"primitives", primitives}};
     OrderedJson node = {{"mesh", meshes.size()}};
     if (origin != Vec3::Zero()) node["translation"] = {origin.x(), origin.y(), origin.z()};
     if (!part.name.empty()) mesh["name"] = node["name"] = part.name;
@@ -112,12 +139,15 @@ struct Scene {
 std::string write_glb_scene(std::span<const GlbPart> parts) {
   Scene scene;
   Eigen::AlignedBox3d box;
-  for (const GlbPart& part : parts) box.extend(bounding_box(*part.mesh));
+  for (const GlbPart& part : parts) {
+    if (part.mesh != nullptr) box.extend(bounding_box(*part.mesh));
+    for (const auto& line : part.lines)
+      for (const Vec3& x : line) box.extend(x);
+  }
   // Single precision keeps 1e-7 of the distance from the origin: up to here 1e-6 of the object.
   if (!box.isEmpty() && box.center().norm() > 10.0 * box.diagonal().norm())
     scene.origin = box.center();
-  for (const GlbPart& part : parts)
-    if (part.mesh->face_count() > 0) scene.add(part);
+  for (const GlbPart& part : parts) scene.add(part);
   if (scene.nodes.empty())
     throw Error(ErrorKind::invalid_input, "mesh: GLB cannot hold a mesh without faces; add one");
   const std::string text = scene.text();
@@ -139,7 +169,7 @@ std::string write_glb_scene(std::span<const GlbPart> parts) {
 }
 
 std::string write_glb(const TriangleMesh& mesh) {
-  const GlbPart part{"", &mesh, {}, {}};
+  const GlbPart part{"", &mesh, {}, {}, {}};
   return write_glb_scene({&part, 1});
 }
 

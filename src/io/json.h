@@ -11,6 +11,7 @@
 #include <mimicry/base/float_traps.h>
 #include <mimicry/base/types.h>
 #include <mimicry/mesh/surface_point.h>
+#include <mimicry/stroke/stroke.h>
 
 namespace mimicry::io {
 
@@ -89,5 +90,9 @@ inline OrderedJson array_of(const Vec3& v) {
 inline OrderedJson array_of(const Quat& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
+
+/// {"program", "seed", "technique"}, the last only where there is one.
+stroke::Simulation read_simulation(const Json& value, const std::string& where);
+OrderedJson to_json(const stroke::Simulation& simulation);
 
 }  // namespace mimicry::io

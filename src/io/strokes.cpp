@@ -63,6 +63,8 @@ Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
       read_placement(member(value, "model_to_world", where), where + ": model_to_world");
   if (value.contains("intended"))
     stroke.intended = read_intention(value["intended"], where + ": intended");
+  if (value.contains("simulated"))
+    stroke.simulated = read_simulation(value["simulated"], where + ": simulated");
   const Json& frames = member(value, "frames", where);
   if (!frames.is_array()) json_fail(where, "'frames' is not an array");
   stroke.frames.reserve(frames.size());
@@ -205,6 +207,7 @@ void StrokeWriter::write(const Stroke& stroke) {
                          {"translation", array_of(placed.translation)},
                          {"scale", placed.scale}}}};
   if (stroke.intended) value["intended"] = to_json(*stroke.intended);
+  if (stroke.simulated) value["simulated"] = to_json(*stroke.simulated);
   OrderedJson& frames = value["frames"] = OrderedJson::array();
   for (const Frame& frame : stroke.frames) frames.push_back(to_json(convention_->frame_out(frame)));
   // Text that is not UTF-8 would throw; ids and names are replaced where they are not.

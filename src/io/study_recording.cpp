@@ -105,8 +105,12 @@ RecordedStroke read_stroke(const Json& value) {
   RecordedStroke stroke;
   try {
     if (!value.is_array()) json_fail("the stroke", "is not an array of pieces");
-    for (std::size_t i = 0; i < value.size(); ++i)
-      stroke.pieces.push_back(read_piece(value[i], "piece " + std::to_string(i)));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string where = "piece " + std::to_string(i);
+      stroke.pieces.push_back(read_piece(value[i], where));
+      if (!stroke.simulated && value[i].contains("Simulated"))
+        stroke.simulated = read_simulation(value[i]["Simulated"], where + ": Simulated");
+    }
   } catch (const Error& error) {
     stroke.problem = error.what();
   }
@@ -183,7 +187,10 @@ std::string write_recording(std::span<const RecordedStroke> strokes) {
   const char* separator = "\n";
   for (const RecordedStroke& stroke : strokes) {
     OrderedJson pieces = OrderedJson::array();
-    for (const RecordedPiece& piece : stroke.pieces) pieces.push_back(piece_json(piece));
+    for (const RecordedPiece& piece : stroke.pieces) {
+      pieces.push_back(piece_json(piece));
+      if (stroke.simulated) pieces.back()["Simulated"] = to_json(*stroke.simulated);
+    }
     out += separator + pieces.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     separator = ",\n";
   }

@@ -38,6 +38,12 @@ std::string to_lower(std::string_view word) {
   return out;
 }
 
+std::string one_line(std::string name) {
+  for (char& c : name)
+    if (c == '\n' || c == '\r') c = ' ';
+  return name;
+}
+
 std::string csv_field(const std::string& value) {
   if (value.find_first_of(",\"\n\r") == std::string::npos) return value;
   std::string quoted = "\"";

@@ -26,6 +26,9 @@ std::string_view take_word(std::string_view& rest);
 
 std::string to_lower(std::string_view word);
 
+/// A name for a place that ends with its line: line ends become blanks.
+std::string one_line(std::string name);
+
 /// A text field of a CSV file, quoted where it has to be (RFC 4180).
 std::string csv_field(const std::string& value);
 

@@ -20,8 +20,14 @@ struct TubeFrame {
   Vec3 side;
 };
 
+struct Knot {
+  Vec3 position;
+  double radius;
+  double slope = 0.0;  // of the radius over arc length
+};
+
 struct Ring {
-  Vec3 center;
+  Knot knot;
   TubeFrame frame;
   double at;  // arc length
 };
@@ -30,10 +36,18 @@ bool finite(const Vec3& p) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
 
-void check(std::span<const Vec3> points, const TubeOptions& options) {
-  if (!std::isfinite(options.radius) || options.radius <= 0.0) {
+void check_radius(double radius) {
+  if (!std::isfinite(radius) || radius <= 0.0)
     throw Error(ErrorKind::invalid_input, "tube: the radius must be positive and finite");
-  }
+}
+
+void check(std::span<const Vec3> points, const TubeOptions& options) {
+  if (options.radii.empty()) check_radius(options.radius);
+  for (const double radius : options.radii) check_radius(radius);
+  if (!options.radii.empty() && options.radii.size() != points.size())
+    throw Error(ErrorKind::invalid_input, "tube: " + std::to_string(options.radii.size()) +
+                                              " radii for " + std::to_string(points.size()) +
+                                              " points; give one for each");
   if (options.sides < 3 || options.sides > 1024) {
     throw Error(ErrorKind::invalid_input, "tube: " + std::to_string(options.sides) +
                                               " sides; the number must lie in 3..1024");
@@ -46,12 +60,33 @@ void check(std::span<const Vec3> points, const TubeOptions& options) {
   }
 }
 
-std::vector<Vec3> distinct(std::span<const Vec3> points, double min_step) {
-  std::vector<Vec3> kept;
-  for (const Vec3& p : points) {
-    if (kept.empty() || (p - kept.back()).stableNorm() > min_step) kept.push_back(p);
-  }
+double largest_radius(const TubeOptions& options) {
+  return options.radii.empty() ? options.radius
+                               : *std::max_element(options.radii.begin(), options.radii.end());
+}
+
+double distance(const Knot& a, const Knot& b) {
+  return (a.position - b.position).stableNorm();
+}
+
+std::vector<Knot> distinct(std::span<const Vec3> points, const TubeOptions& options,
+                           double min_step) {
+  std::vector<Knot> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (kept.empty() || (points[i] - kept.back().position).stableNorm() > min_step)
+      kept.push_back({points[i], options.radii.empty() ? options.radius : options.radii[i]});
   return kept;
+}
+
+// Central differences; one-sided at the ends of an open tube.
+void set_slopes(std::vector<Knot>& knots, bool closed) {
+  const std::size_t count = knots.size();
+  for (std::size_t i = 0; i < count && count > 1; ++i) {
+    const Knot& before = i > 0 ? knots[i - 1] : closed ? knots.back() : knots[i];
+    const Knot& after = i + 1 < count ? knots[i + 1] : closed ? knots.front() : knots[i];
+    knots[i].slope =
+        (after.radius - before.radius) / (distance(before, knots[i]) + distance(knots[i], after));
+  }
 }
 
 /// The least turn that takes one direction to another; half a turn around `side` for a reversal.
@@ -78,15 +113,15 @@ TubeFrame turned(const TubeFrame& frame, const Turn& turn, double share) {
 }
 
 /// The rings of a joint, and the frame that leaves it.
-TubeFrame add_joint(const Vec3& center, double at, const TubeFrame& before, const Vec3& along,
+TubeFrame add_joint(const Knot& knot, double at, const TubeFrame& before, const Vec3& along,
                     std::vector<Ring>& rings) {
   const Turn turn = turn_between(before, along);
   if (turn.angle <= kRoundedBend) {
-    rings.push_back({center, turned(before, turn, 0.5), at});
+    rings.push_back({knot, turned(before, turn, 0.5), at});
   } else {
     const int steps = static_cast<int>(std::ceil(turn.angle / kRoundedBend));
     for (int i = 0; i <= steps; ++i) {
-      rings.push_back({center, turned(before, turn, static_cast<double>(i) / steps), at});
+      rings.push_back({knot, turned(before, turn, static_cast<double>(i) / steps), at});
     }
   }
   TubeFrame after = turned(before, turn, 1.0);
@@ -109,22 +144,25 @@ void spread_twist(std::vector<Ring>& rings, const TubeFrame& first, const TubeFr
 
 class Builder {
  public:
-  Builder(double radius, int sides) : radius_(radius), sides_(sides) {}
+  explicit Builder(int sides) : sides_(sides) {}
 
-  void add_ring(const Vec3& center, const TubeFrame& frame, double latitude) {
+  /// latitude: of a ring of an end's half ball; 0 on the tube itself.
+  void add_ring(const Knot& knot, const TubeFrame& frame, double latitude) {
     const Vec3 other = frame.along.cross(frame.side);
     for (int k = 0; k < sides_; ++k) {
       const double a = 2.0 * kPi * k / sides_;
       const Vec3 out = std::cos(a) * frame.side + std::sin(a) * other;
-      const Vec3 normal =
+      const Vec3 direction =
           (std::cos(latitude) * out + std::sin(latitude) * frame.along).normalized();
-      positions_.push_back(center + radius_ * normal);
-      normals_.push_back(normal);
+      positions_.push_back(knot.position + knot.radius * direction);
+      // A cone's normals lean against its growth.
+      normals_.push_back(latitude == 0.0 ? (direction - knot.slope * frame.along).normalized()
+                                         : direction);
     }
   }
 
-  void add_pole(const Vec3& center, const Vec3& direction) {
-    positions_.push_back(center + radius_ * direction);
+  void add_pole(const Knot& knot, const Vec3& direction) {
+    positions_.push_back(knot.position + knot.radius * direction);
     normals_.push_back(direction);
   }
 
@@ -152,7 +190,6 @@ class Builder {
   }
 
  private:
-  double radius_;
   int sides_;
   std::vector<Vec3> positions_, normals_;
   std::vector<Face> faces_;
@@ -162,18 +199,20 @@ class Builder {
 
 TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
   check(points, options);
-  std::vector<Vec3> kept = distinct(points, kMinStep * options.radius);
-  if (kept.empty()) return {};
+  if (points.empty()) return {};
+  const double min_step = kMinStep * largest_radius(options);
+  std::vector<Knot> kept = distinct(points, options, min_step);
   bool closed = options.closed && kept.size() > 2;
-  if (closed && (kept.front() - kept.back()).stableNorm() <= kMinStep * options.radius) {
+  if (closed && distance(kept.front(), kept.back()) <= min_step) {
     kept.pop_back();
     closed = kept.size() > 2;
   }
+  set_slopes(kept, closed);
 
   const std::size_t count = kept.size();
   std::vector<Vec3> along;  // of the segment that leaves each point
   for (std::size_t i = 0; i + 1 < count || (closed && i < count); ++i) {
-    along.push_back((kept[(i + 1) % count] - kept[i]).stableNormalized());
+    along.push_back((kept[(i + 1) % count].position - kept[i].position).stableNormalized());
   }
   if (along.empty()) along.push_back(Vec3::UnitY());
 
@@ -183,7 +222,7 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
   TubeFrame frame = first;
   double at = 0.0;
   for (std::size_t i = 1; i < along.size() + (closed ? 1 : 0); ++i) {
-    at += (kept[i % count] - kept[i - 1]).stableNorm();
+    at += distance(kept[i % count], kept[i - 1]);
     frame = add_joint(kept[i % count], at, frame, along[i % count], rings);
   }
   if (closed) {
@@ -201,16 +240,16 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
                 "tube: " + std::to_string(vertices) + " vertices; take fewer points or sides");
   }
 
-  Builder builder(options.radius, options.sides);
-  const Vec3 head = rings.front().center;
-  const Vec3 tail = rings.back().center;
+  Builder builder(options.sides);
+  const Knot head = rings.front().knot;
+  const Knot tail = rings.back().knot;
   const TubeFrame head_frame = rings.front().frame;
   const TubeFrame tail_frame = rings.back().frame;
   if (!closed) builder.add_pole(head, -head_frame.along);
   const Index start = builder.next_vertex();
   const auto latitude = [&](int i) { return 0.5 * kPi * i / (cap_rings + 1); };
   for (int i = cap_rings; i >= 1; --i) builder.add_ring(head, head_frame, -latitude(i));
-  for (const Ring& ring : rings) builder.add_ring(ring.center, ring.frame, 0.0);
+  for (const Ring& ring : rings) builder.add_ring(ring.knot, ring.frame, 0.0);
   for (int i = 1; i <= cap_rings; ++i) builder.add_ring(tail, tail_frame, latitude(i));
   const Index end = builder.next_vertex();
   for (Index a = start; a + options.sides < end; a += options.sides) {

@@ -130,6 +130,7 @@ std::vector<MotionSample> motion_of(const RecordedStroke& stroke) {
 
 stroke::Stroke stroke_of(const RecordedStroke& stroke) {
   stroke::Stroke result;
+  result.simulated = stroke.simulated;
   result.model_to_world = placement_of(stroke);
   const Similarity& placed = result.model_to_world;
   motion_of(stroke);  // refuses what is not finite
@@ -175,6 +176,7 @@ RecordedStroke record(const stroke::Stroke& stroke, const curve::ProjectedCurve&
   matrix.topLeftCorner<3, 3>() = placed.scale * placed.rotation.toRotationMatrix();
   matrix.topRightCorner<3, 1>() = placed.translation;
   RecordedStroke result;
+  result.simulated = stroke.simulated;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     if (i == 0 || curve.pieces[i - 1].kind == curve::PieceKind::gap)
       result.pieces.push_back({{}, method, matrix});

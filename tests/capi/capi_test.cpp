@@ -36,6 +36,7 @@ using Curve = std::unique_ptr<mimicry_curve, Destroy<mimicry_curve_destroy>>;
 using Bytes = std::unique_ptr<mimicry_bytes, Destroy<mimicry_bytes_destroy>>;
 using Strokes = std::unique_ptr<mimicry_strokes, Destroy<mimicry_strokes_destroy>>;
 using List = std::unique_ptr<mimicry_curve_list, Destroy<mimicry_curve_list_destroy>>;
+using Tube = std::unique_ptr<mimicry_tube, Destroy<mimicry_tube_destroy>>;
 
 // The object that a call makes; the call must succeed.
 template <class Handle, class Function, class... Arguments>
@@ -249,6 +250,61 @@ TEST(CApi, ThreadsOfABakeAreBounded) {
   EXPECT_NE(std::string(mimicry_last_error()).find("256"), std::string::npos);
 }
 
+TEST(CApi, TubesAreAsThickAsTheirPoints) {
+  const Target target = target_of("sphere");
+  const auto session = make<Session>(mimicry_session_create, target.get(), "snap");
+  const auto frames = wave(60);
+  const auto plain =
+      make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
+  std::vector<double> radii(60, 0.02);
+  const auto even = make<Curve>(mimicry_curve_with_radii, plain.get(), radii.data());
+  // The same as the radius for all, also in the triangles of mimicry_curve_tube.
+  for (const auto format : {MIMICRY_CURVES_PLY, MIMICRY_CURVES_GLB})
+    EXPECT_EQ(
+        text(write(target.get(), {even.get()}, format)),
+        text(make<Bytes>(mimicry_curves_write, target.get(), "shape",
+                         std::vector<const mimicry_curve*>{plain.get()}.data(), std::size_t{1},
+                         format, static_cast<const uint8_t*>(nullptr), 0.02)));
+  for (std::size_t i = 0; i < 60; ++i) radii[i] = 0.01 + 0.001 * double(i);
+  const auto growing = make<Curve>(mimicry_curve_with_radii, plain.get(), radii.data());
+  const auto tube = make<Tube>(mimicry_curve_tube, growing.get(), 0.0, 12, 0.0);
+  const float* x = mimicry_tube_positions(tube.get());
+  const auto off = [&](std::size_t point) {
+    mimicry_curve_point p;
+    EXPECT_EQ(mimicry_curve_point_at(growing.get(), point, &p), MIMICRY_OK);
+    double nearest = 1e9;
+    for (std::size_t v = 0; v < mimicry_tube_vertex_count(tube.get()); ++v)
+      nearest = std::min(nearest, std::hypot(x[3 * v] - p.position[0], x[3 * v + 1] - p.position[1],
+                                             x[3 * v + 2] - p.position[2]));
+    return nearest;
+  };
+  for (const std::size_t point : {0u, 20u, 59u})
+    EXPECT_NEAR(off(point), radii[point], 0.1 * radii[point]);
+  // Radii stay with the points of a slice, and go where points are new.
+  const auto file = [&](const Curve& curve, double radius) {
+    const mimicry_curve* list[] = {curve.get()};
+    mimicry_bytes* bytes = nullptr;
+    const mimicry_status status = mimicry_curves_write(target.get(), "shape", list, 1,
+                                                       MIMICRY_CURVES_PLY, nullptr, radius, &bytes);
+    mimicry_bytes_destroy(bytes);
+    return status;
+  };
+  EXPECT_EQ(
+      file(make<Curve>(mimicry_curve_slice, growing.get(), std::size_t{5}, std::size_t{20}), 0.0),
+      MIMICRY_OK);
+  EXPECT_EQ(file(make<Curve>(mimicry_curve_smooth, growing.get(), 0.5, 2), 0.0), MIMICRY_OK);
+  EXPECT_EQ(file(make<Curve>(mimicry_curve_resample, growing.get(), std::size_t{10}), 0.0),
+            MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(file(make<Curve>(mimicry_curve_with_radii, growing.get(),
+                             static_cast<const double*>(nullptr)),
+                 0.0),
+            MIMICRY_INVALID_INPUT);
+  radii[7] = 0.0;
+  mimicry_curve* none = nullptr;
+  EXPECT_EQ(mimicry_curve_with_radii(plain.get(), radii.data(), &none), MIMICRY_INVALID_INPUT);
+  EXPECT_NE(std::string(mimicry_last_error()).find("radius 7"), std::string::npos);
+}
+
 TEST(CApi, FilesComeBack) {
   const Target target = target_of("cube");
   const auto session = make<Session>(mimicry_session_create, target.get(), "mimicry-live");
@@ -265,7 +321,8 @@ TEST(CApi, FilesComeBack) {
   EXPECT_STREQ(mimicry_curve_technique(again.get()), "mimicry-live");
   EXPECT_EQ(text(write(target.get(), {curve.get(), again.get()}, MIMICRY_CURVES_JSON)), text(file));
   for (const auto format :
-       {MIMICRY_CURVES_OBJ, MIMICRY_CURVES_CSV, MIMICRY_CURVES_PLY, MIMICRY_CURVES_GLB})
+       {MIMICRY_CURVES_OBJ, MIMICRY_CURVES_CSV, MIMICRY_CURVES_PLY, MIMICRY_CURVES_GLB,
+        MIMICRY_CURVES_OBJ_POLYLINES, MIMICRY_CURVES_PLY_LINES, MIMICRY_CURVES_GLB_LINES})
     EXPECT_GT(text(write(target.get(), {curve.get()}, format)).size(), 100u);
   for (const int unknown : {-1, 17, 1 << 30}) {
     mimicry_bytes* none = nullptr;

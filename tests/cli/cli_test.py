@@ -109,6 +109,100 @@ class CommandLine(unittest.TestCase):
             off.append(json.loads(done.stdout)["techniques"][0]["mean_distance_to_intended_m"])
         self.assertLess(off[1], 0.5 * off[0])
 
+    def test_people_who_see_their_ink_stand_beside_blind_ones(self):
+        torus, seen, blind, out = "shape:torus:24", self.path("seen.json"), self.path("blind.json"), self.path("o")
+        run("simulate", torus, "--closed-loop", "anchored-closest,spraycan", "--count", "2", "--rate",
+            "30", "--seed", "5", "-o", seen)
+        run("simulate", torus, "--rate", "30", "--seed", "5", "-o", blind)
+        with open(seen, encoding="utf-8") as file:
+            strokes = json.load(file)["strokes"]
+        with open(blind, encoding="utf-8") as file:
+            unseen = json.load(file)["strokes"]
+        version = run("--version").stdout.strip()
+        self.assertEqual(len({s["id"] for s in strokes}), len(strokes))
+        self.assertEqual(len(strokes), 4 * len(unseen))
+        for technique in ("spraycan", "anchored-closest"):
+            mark = {"program": "mimicry " + version, "seed": 5, "technique": technique}
+            self.assertEqual(sum(s["simulated"] == mark for s in strokes), 2 * len(unseen))
+        self.assertEqual({json.dumps(s["simulated"]) for s in unseen},
+                         {json.dumps({"program": "mimicry " + version, "seed": 5})})
+        # Each is drawn with the technique whose ink was seen; the others stand beside.
+        rows = json.loads(run("project", torus, seen, "--beside", blind, "--json", "-o", out)
+                          .stdout)["techniques"]
+        self.assertEqual([r["technique"] for r in rows], ["spraycan", "anchored-closest"])
+        for row in rows:
+            own = [s["id"] for s in strokes if s["simulated"]["technique"] == row["technique"]]
+            self.assertEqual([s["stroke"] for s in row["strokes"]], own)
+            self.assertEqual((row["measures"]["strokes"], row["beside"]["strokes"]),
+                             (len(own), len(unseen)))
+        anchored = rows[1]
+        self.assertLess(anchored["measures"]["d_ep_m"], 0.5 * anchored["beside"]["d_ep_m"])
+        self.assertEqual(anchored["measures"]["share_jumping"], 0)
+        with open(os.path.join(out, "curves.json"), encoding="utf-8") as file:
+            curves = json.load(file)["curves"]
+        self.assertEqual([c["stroke"] for c in curves], [s["stroke"] for r in rows for s in r["strokes"]])
+        table = run("project", torus, seen, "--beside", blind, "-o", out).stdout
+        self.assertRegex(table.splitlines()[0],
+                         "^technique +ink seen: off mm +K_E rad/m +jumps % +blind: off mm +K_E")
+        self.assertIn("%.1f" % (1e3 * anchored["measures"]["d_ep_m"]), table.splitlines()[2])
+        for line in ("ink seen: simulated people who see", "blind: simulated strokes"):
+            self.assertIn(line, table)
+        # Named techniques draw all strokes, whoever saw what.
+        rows = json.loads(run("project", torus, seen, "-t", "snap", "--json", "-o", out).stdout)
+        self.assertEqual(len(rows["techniques"][0]["strokes"]), len(strokes))
+        self.assertNotIn("beside", rows["techniques"][0])
+        # In the picture too: a panel has its own strokes.
+        for name in ("all.png", "one.png"):
+            run("render", torus, "--strokes", seen, "--curves", os.path.join(out, "curves.json"),
+                "--side-by-side", "--width", "90", "--height", "90", "-o", self.path(name))
+
+    def test_smoothness_and_jumps_of_strokes_that_meant_nothing(self):
+        run("simulate", "shape:torus:24", "--rate", "30", "-o", self.path("s.json"))
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        for stroke in document["strokes"]:
+            del stroke["intended"], stroke["simulated"]
+        path = self.write("own.json", json.dumps(document))
+        done = run("project", "shape:torus:24", path, "-t", "snap", "--json", "-o", self.path("o"))
+        row = json.loads(done.stdout)["techniques"][0]
+        self.assertIsNone(row["measures"]["d_ep_m"])
+        self.assertGreater(row["measures"]["k_e_rad_per_m"], 1)
+        head, snap = run("project", "shape:torus:24", path, "-t", "snap", "-o", self.path("o")) \
+            .stdout.splitlines()[:2]
+        self.assertRegex(head, "^technique +off mm +K_E rad/m +jumps %")
+        self.assertRegex(snap, "^snap +- +[0-9]")
+
+    def test_forms_of_curve_files(self):
+        run("simulate", "shape:torus:24", "--rate", "30", "-o", self.path("s.json"))
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            document = json.load(file)
+
+        def curves(name, strokes, *options):
+            run("project", "shape:torus:24", strokes, "-t", "snap", "-o", self.path(name), *options)
+            files = {}
+            for ending in ("obj", "ply", "glb"):
+                with open(self.path(name, "curves." + ending), "rb") as file:
+                    files[ending] = file.read()
+            return files
+
+        plain = curves("a", self.path("s.json"))
+        self.assertEqual({len(l.split()) for l in plain["obj"].decode().splitlines() if l[:2] == "l "}, {3})
+        other = curves("b", self.path("s.json"), "--obj-lines", "polylines", "--curves-as", "lines")
+        lines = [l for l in other["obj"].decode().splitlines() if l[:2] == "l "]
+        self.assertEqual(len(lines), len(document["strokes"]))
+        self.assertIn(b"element edge", other["ply"])
+        self.assertIn(b'"mode":3', other["glb"])
+        # At half of its pressure a pen draws as thick as one without pressure.
+        for pressure, same in ((0.5, True), (0.9, False)):
+            for stroke in document["strokes"]:
+                for frame in stroke["frames"]:
+                    frame["pressure"] = pressure
+            path = self.write("pressed.json", json.dumps(document))
+            pressed = curves("c", path)
+            self.assertEqual(pressed["glb"] == plain["glb"], same)
+            self.assertEqual(pressed["ply"] == plain["ply"], same)
+            self.assertEqual(curves("d", path, "--tube-width", "constant"), plain)
+
     def test_info(self):
         report = json.loads(run("info", "shape:double-torus", "--json").stdout)
         self.assertEqual((report["genus"], report["closed"], report["drawable"]), (2, True, True))

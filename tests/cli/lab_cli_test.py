@@ -284,6 +284,9 @@ class Participants(Folder):
         self.assertEqual(len(strokes), 4)
         piece = strokes[0][0]
         self.assertEqual(piece["M"], "Spray")
+        version = run("--version").stdout.strip()
+        self.assertEqual({json.dumps(p["Simulated"]) for s in strokes for p in s}, {json.dumps(
+            {"program": "mimicry " + version, "seed": 1, "technique": "spraycan"})})
         self.assertEqual(set(piece["F"][0]["DF"]), {"T", "HP", "PP", "HU", "HF", "CU", "CF", "SD"})
         times = [f["DF"]["T"] for s in strokes for p in s for f in p["F"]]
         self.assertEqual(times, sorted(times))
@@ -293,6 +296,7 @@ class Participants(Folder):
         with open(self.path("o", "rows.csv"), newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 2 * 2 * 4 * 2)
+        self.assertEqual({r["simulated"] for r in rows}, {f"mimicry {version} seed 1"})
         # The same technique again gives what was drawn.
         again = [r for r in rows if r["method"] == "spraycan" and r["stroke"].startswith("0_")]
         self.assertLess(max(float(r["D_ep_mm"]) for r in again), 30)

@@ -224,6 +224,88 @@ class Report(unittest.TestCase):
         self.assertTrue(seen["saved"].endswith(".svg"))
         self.assertIn("&lt;i&gt;face 9", page)
 
+    def test_says_that_strokes_are_simulated(self):
+        def marked(every, mark="mimicry 0.1.0 seed 3"):
+            write_rows(self.rows)
+            with open(self.rows, encoding="utf-8", newline="") as file:
+                head, *rows = csv.reader(file)
+            with open(self.rows, "w", encoding="utf-8", newline="") as file:
+                csv.writer(file, lineterminator="\n").writerows(
+                    [[*head, "simulated"],
+                     *([*row, mark if i % every == 0 else ""] for i, row in enumerate(rows))])
+            return self.report("--gallery", "0")[1]
+
+        write_rows(self.rows)
+        self.assertNotIn('id="simulated"', self.report("--gallery", "0")[1])
+        notice = re.search('<p class="notice" id="simulated">.*?</p>', marked(1)).group(0)
+        self.assertIn("No person drew these strokes: they are made by mimicry 0.1.0 seed 3.", notice)
+        notice = re.search('<p class="notice" id="simulated">.*?</p>', marked(2, "<x>")).group(0)
+        self.assertIn("72 of 144 strokes were drawn by no person: they are made by &lt;x&gt;.", notice)
+
+    def test_participants_are_tested_beside_their_strokes(self):
+        write_rows(self.rows, participants=8)
+        _, page = self.report("--gallery", "0")
+        group = data_of(page)["comparisons"][0]["groups"][0]
+        self.assertEqual(group["group"], "task tracing")
+        with open(self.rows, encoding="utf-8") as file:
+            rows = [r for r in csv.DictReader(file)
+                    if r["shape"] != "0" and r["task"] == "tracing"
+                    and (r["participant"], r["shape"], r["index"]) != ("p1", "4", "3")]
+        table = re.search(r'<table class="comparison">.*?</table>', page, re.S).group(0)
+        cells = [[html.unescape(re.sub("<[^>]*>", "", c)) for c in re.findall("<td.*?</td>", line)]
+                 for line in table.splitlines() if line.startswith("<tr><td")]
+        for line, measure in zip(cells, group["measures"]):
+            means = {}
+            for r in rows:
+                means.setdefault((r["participant"], r["method"]), []).append(float(r[measure["measure"]]))
+            differences = sorted((sum(means[p, "0"]) / len(means[p, "0"])
+                                  - sum(means[p, "1"]) / len(means[p, "1"])
+                                  for p, m in means if m == "0"), key=abs)
+            # Counted over all 2^8 signs.
+            plus = sum(i + 1 for i, d in enumerate(differences) if d > 0)
+            sums = [sum(i + 1 for i in range(8) if s >> i & 1) for s in range(256)]
+            low = min(plus, 36 - plus)
+            p = min(1, 2 * sum(w <= low for w in sums) / 256)
+            self.assertEqual(measure["participants"]["count"], 8)
+            self.assertAlmostEqual(measure["participants"]["p"], p, places=12)
+            self.assertAlmostEqual(float(line[6]), p, delta=0.00051)
+        self.assertIn("of 8 participants", table)
+        compared = run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500").stdout
+        self.assertIn("p by participant", compared)
+        self.assertIn("95 pairs, 1 left out (rejected or filtered), 8 participants",
+                      run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500",
+                          "--without", "shape=0").stdout.replace("task tracing: ", ""))
+
+    def test_bold_rows_whose_interval_spans_zero_are_explained(self):
+        def page_of(largest):
+            """Most pairs differ by 1 in the same direction, one by much in the other."""
+            with open(self.rows, "w", encoding="utf-8") as file:
+                print("method,participant,shape,index,K_E,D_ep_mm", file=file)
+                for i in range(40):
+                    print("spraycan", "p", "cube", i, 100, 5 + 0.01 * i, sep=",", file=file)
+                    print("mimicry", "p", "cube", i, 99 - 0.01 * i + (largest if i == 7 else 0), 5,
+                          sep=",", file=file)
+            return self.report("--gallery", "0")[1]
+
+        note = re.search('<p id="spanning-zero">.*?</p>', page_of(200)).group(0)
+        self.assertIn("spans 0: K<sub>E</sub> (all strokes).", note)
+        self.assertNotIn('id="spanning-zero"', page_of(0))
+
+    def test_names_of_measures_are_typeset_alike(self):
+        write_rows(self.rows, participants=1)
+        if shutil.which("node") is None:
+            self.skipTest("node is absent")
+        _, page = self.report("--gallery", "0", node=True)
+        self.assertIn("K<sub>E</sub>", page)
+        for name in ("boxes", "shapes", "scatter-spraycan-mimicry"):
+            root = xml.etree.ElementTree.parse(
+                os.path.join(self.folder, "figures", name + ".svg")).getroot()
+            texts = [t for t in root.iter() if t.tag.endswith("}text")]
+            named = [t for t in texts if "".join(t.itertext()).startswith("KE (rad/m)")]
+            self.assertEqual([len(named), [c.text for c in named[0]]], [1, ["E", " (rad/m)" if
+                             name != "scatter-spraycan-mimicry" else named[0][1].text]])
+            self.assertFalse([t.text for t in texts if "_" in "".join(t.itertext())])
+
     def test_what_is_left_out(self):
         write_rows(self.rows)
         _, page = self.report("--gallery", "0")

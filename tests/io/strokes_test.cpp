@@ -44,6 +44,24 @@ std::string error_of(const std::string& text) {
   return "";
 }
 
+TEST(Strokes, KeepTheMarkOfASimulation) {
+  std::vector<Stroke> written(3, sample_stroke(1, 4));
+  // Beyond what a double counts.
+  written[0].simulated = {"mimicry 0.1.0", 18446744073709551615u, "snap"};
+  written[1].simulated = {"other 2", 0, ""};
+  const std::string text = write_strokes(written);
+  const std::vector<Stroke> read = read_strokes(text, "s.json");
+  EXPECT_EQ(read[0].simulated->program, "mimicry 0.1.0");
+  EXPECT_EQ(read[0].simulated->seed, 18446744073709551615u);
+  EXPECT_EQ(read[0].simulated->technique, "snap");
+  EXPECT_EQ(read[1].simulated->technique, "");
+  EXPECT_FALSE(read[2].simulated);
+  EXPECT_EQ(write_strokes(read), text);
+  std::string broken = text;
+  broken.replace(broken.find("\"seed\":0"), 8, "\"seed\":-1");
+  EXPECT_THAT(error_of(broken), HasSubstr("stroke 1: simulated: seed"));
+}
+
 TEST(Strokes, ReadBackToTheSameBits) {
   const std::vector<Stroke> written = {sample_stroke(1, 40), sample_stroke(2, 0),
                                        sample_stroke(3, 1)};

@@ -45,6 +45,19 @@ std::vector<RecordedStroke> strokes(std::uint64_t seed) {
   return result;
 }
 
+TEST(StudyRecording, KeepsTheMarkOfASimulation) {
+  auto written = strokes(2);
+  written[2].simulated = {"mimicry 0.1.0", 7, "spraycan"};
+  const std::string text = write_recording(written);
+  const auto read = read_recording(text, "1_0.json");
+  EXPECT_FALSE(read[1].simulated);
+  ASSERT_TRUE(read[2].simulated);
+  EXPECT_EQ(read[2].simulated->program, "mimicry 0.1.0");
+  EXPECT_EQ(read[2].simulated->seed, 7u);
+  EXPECT_EQ(read[2].simulated->technique, "spraycan");
+  EXPECT_EQ(write_recording(read), text);
+}
+
 TEST(StudyRecording, ReadsBackToTheSameBits) {
   const auto written = strokes(1);
   const std::string text = write_recording(written);

@@ -172,12 +172,92 @@ TEST(TubeMesh, SizeAndPlaceDoNotMatter) {
   }
 }
 
+TEST(TubeMesh, IsAsThickAsEachPointAsksAndLinearBetweenThem) {
+  const std::vector<Vec3> line = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 0, 0)};
+  const std::vector<double> radii = {0.1, 0.3, 0.2};
+  TubeOptions options = options_of(0.0, 64);  // of a tube without radii of its own
+  options.radii = radii;
+  const TubeMesh tube = tube_mesh(line, options);
+  expect_watertight(tube);
+  const auto radius_at = [&](double x) { return x < 1.0 ? 0.1 + 0.2 * x : 0.3 - 0.05 * (x - 1.0); };
+  int on_rings = 0;
+  for (const Vec3& p : tube.mesh.positions()) {
+    const double off = std::hypot(p.y(), p.z());
+    // Half a ball at each end.
+    if (p.x() < 0.0) {
+      EXPECT_NEAR(p.norm(), 0.1, 1e-12);
+    }
+    if (p.x() > 3.0) {
+      EXPECT_NEAR((p - line[2]).norm(), 0.2, 1e-12);
+    }
+    if (p.x() >= 0.0 && p.x() <= 3.0 && off > 0.09) {
+      EXPECT_NEAR(off, radius_at(p.x()), 1e-12);
+      ++on_rings;
+    }
+  }
+  EXPECT_EQ(on_rings, 3 * 64);
+  // Two frustums and two half balls; a 64-gon has 0.16 % less area than its circle.
+  const auto frustum = [](double a, double b, double h) {
+    return kPi * h * (a * a + a * b + b * b) / 3.0;
+  };
+  const double exact =
+      frustum(0.1, 0.3, 1.0) + frustum(0.3, 0.2, 2.0) + 2.0 / 3.0 * kPi * (0.001 + 0.008);
+  EXPECT_NEAR(volume(tube.mesh), exact, 0.004 * exact);
+}
+
+TEST(TubeMesh, AConesNormalsLeanAgainstItsGrowth) {
+  std::vector<Vec3> line;
+  std::vector<double> radii;
+  for (int i = 0; i <= 20; ++i) {
+    line.emplace_back(0.1 * i, 0.0, 0.0);
+    radii.push_back(0.1 + 0.05 * i);  // half as much as the way
+  }
+  TubeOptions options = options_of(0.0, 48);
+  options.radii = radii;
+  const TubeMesh tube = tube_mesh(line, options);
+  const std::vector<Vec3> geometric = angle_weighted_normals(tube.mesh);
+  int inner = 0;
+  for (std::size_t v = 0; v < geometric.size(); ++v) {
+    const double x = tube.mesh.positions()[v].x();
+    if (x < 0.05 || x > 1.95) continue;
+    EXPECT_NEAR(tube.normals[v].x(), -0.5 / std::sqrt(1.25), 1e-9);
+    EXPECT_GT(geometric[v].dot(tube.normals[v]), 0.999);
+    ++inner;
+  }
+  EXPECT_EQ(inner, 19 * 48);
+}
+
+TEST(TubeMesh, AClosedTubeKeepsItsRadiiAcrossTheSeam) {
+  std::vector<Vec3> line;
+  std::vector<double> radii;
+  for (int i = 0; i <= 40; ++i) {  // the last point repeats the first
+    const double a = 2.0 * kPi * i / 40;
+    line.emplace_back(std::cos(a), std::sin(a), 0.0);
+    radii.push_back(0.1 + 0.05 * std::cos(a));
+  }
+  TubeOptions options = options_of(0.0, 12, true);
+  options.radii = radii;
+  const TubeMesh tube = tube_mesh(line, options);
+  expect_watertight(tube);
+  EXPECT_EQ(euler(tube.mesh), 0);
+  for (const Vec3& p : tube.mesh.positions()) {
+    const double a = std::atan2(p.y(), p.x());
+    EXPECT_NEAR((p - Vec3(std::cos(a), std::sin(a), 0.0)).norm(), 0.1 + 0.05 * std::cos(a), 2e-3);
+  }
+}
+
 TEST(TubeMesh, RefusesWhatCannotBeMade) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Vec3> line = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
   EXPECT_THROW(tube_mesh(line, options_of(0.0)), Error);
   EXPECT_THROW(tube_mesh(line, options_of(nan)), Error);
   EXPECT_THROW(tube_mesh(line, options_of(0.1, 2)), Error);
+  for (const std::vector<double>& radii :
+       {std::vector<double>{0.1}, {0.1, 0.0}, {0.1, nan}, {0.1, 0.1, 0.1}}) {
+    TubeOptions options = options_of(0.1);
+    options.radii = radii;
+    EXPECT_THROW(tube_mesh(line, options), Error);
+  }
   EXPECT_THROW(tube_mesh(std::vector<Vec3>{Vec3(0, nan, 0)}, options_of(0.1)), Error);
   EXPECT_THROW(tube_mesh(std::vector<Vec3>{Vec3(0, kInfinity, 0)}, options_of(0.1)), Error);
 }

@@ -10,6 +10,7 @@
 #include <mimicry/base/random.h>
 #include <mimicry/base/types.h>
 #include <mimicry/study/bootstrap.h>
+#include <mimicry/study/comparison.h>
 #include <mimicry/study/holm.h>
 #include <mimicry/study/normal_distribution.h>
 #include <mimicry/study/wilcoxon.h>
@@ -180,6 +181,39 @@ TEST(Bootstrap, SameSeedSameBitsAndFewValues) {
   EXPECT_THROW(bootstrap_interval(x, mean, {.level = 1.5}), Error);
   EXPECT_THROW(bootstrap_interval(x, mean, {.resamples = 3}), Error);
   EXPECT_THROW(bootstrap_interval(std::vector<double>{1, kNan}, mean), Error);
+}
+
+TEST(Comparison, ParticipantsMeansAreTestedBesideStrokes) {
+  // Six people, of whom each has 20 strokes that are alike: five gain 1, one loses 2. Over strokes
+  // that is overwhelming; over people it is next to nothing.
+  Random random(17);
+  PairedMeasure measure{"K_E", {}, {}, {}};
+  std::vector<double> mean_a(6), mean_b(6);
+  for (std::size_t person = 0; person < 6; ++person)
+    for (int k = 0; k < 20; ++k) {
+      const double a = 5.0 + random.normal();
+      const double b = a - (person < 5 ? 1.0 : -2.0) + 0.1 * random.normal();
+      measure.a.push_back(a);
+      measure.b.push_back(b);
+      measure.participants.push_back(10 * person);
+      mean_a[person] += a / 20;
+      mean_b[person] += b / 20;
+    }
+  const Comparison c = compare({&measure, 1}).front();
+  EXPECT_LT(c.test.p(), 1e-3);
+  EXPECT_EQ(c.participants, 6);
+  // Ranks 1 to 5 of 6 are positive: of 64 sets of signs, 2 x 14 are as far off or farther.
+  EXPECT_EQ(c.by_participant.w_plus, 15);
+  EXPECT_DOUBLE_EQ(c.by_participant.p(), 28.0 / 64);
+  EXPECT_EQ(c.by_participant.p(), wilcoxon_signed_rank(mean_a, mean_b).p());
+  // Pairs without a number on both sides do not count for anyone.
+  measure.a[0] = kNan;
+  for (std::size_t i = 100; i < 120; ++i) measure.b[i] = kNan;
+  EXPECT_EQ(compare({&measure, 1}).front().participants, 5);
+  measure.participants.clear();
+  EXPECT_EQ(compare({&measure, 1}).front().participants, 0);
+  measure.participants.resize(3);
+  EXPECT_THROW(compare({&measure, 1}), Error);
 }
 
 TEST(Bootstrap, Moments) {

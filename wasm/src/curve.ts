@@ -81,7 +81,13 @@ export class Curve extends Handle {
     return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_stroke(this.at, args.put(id), out)));
   }
 
-  /** radius and lift (along the surface's normal): model units. */
+  /** A copy whose tube is as thick as given at each point: one a point, model units, above 0. */
+  withRadii(radii: Float64Array): Curve {
+    if (radii.length !== this.pointCount) throw new RangeError(`${radii.length} radii for a curve of ${this.pointCount} points; give one for each`);
+    return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_radii(this.at, args.put(radii), out)));
+  }
+
+  /** radius (of a curve without radii of its own) and lift (along the surface's normal): model units. */
   tube(radius: number, sides = 12, lift = 0): TubeArrays {
     const m = this.m;
     const tube = made(m, (_, out) => m._mimicry_curve_tube(this.at, radius, sides, lift, out));

@@ -15,8 +15,9 @@ export interface SurfaceHit {
   face: number;
 }
 
-export type CurveFormat = 'json' | 'obj' | 'csv' | 'ply' | 'glb';
-const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb'];
+/** obj: a line element a segment, obj-polylines: one a part. ply and glb have tubes, their -lines edges and line strips. */
+export type CurveFormat = 'json' | 'obj' | 'csv' | 'ply' | 'glb' | 'obj-polylines' | 'ply-lines' | 'glb-lines';
+const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb', 'obj-polylines', 'ply-lines', 'glb-lines'];
 
 // A query's two vectors, then a mimicry_surface_point of ten doubles and two integers.
 const kQueryBytes = 6 * 8;
@@ -140,7 +141,7 @@ export class Target extends Handle {
     return new Session(this.m, pointer, technique, options);
   }
 
-  /** A file of curves on this target. colors: 3 a curve, sRGB (PLY and GLB). tubeRadius: model units (GLB). */
+  /** A file of curves on this target. colors: 3 a curve, sRGB (PLY and GLB). tubeRadius: model units; of curves without radii of their own (PLY and GLB). */
   writeCurves(curves: readonly Curve[], format: CurveFormat, colors = new Uint8Array(3 * curves.length), tubeRadius = 0.003 * this.diagonal): Uint8Array<ArrayBuffer> {
     const m = this.m;
     return takeBytes(m, made(m, (args, out) =>

@@ -113,9 +113,12 @@ test('draws frame by frame as all at once, and edits', () => {
   const tube = curve.tube(0.01, 8);
   assert.equal(tube.positions.length, tube.normals.length);
   assert.ok(tube.faces.length > 300);
+  const thick = curve.withRadii(new Float64Array(100).fill(0.02));
+  assert.deepEqual(target.writeCurves([thick], 'glb', undefined, 0.01), target.writeCurves([curve], 'glb', undefined, 0.02));
+  assert.throws(() => curve.withRadii(new Float64Array(99)), /99 radii/);
   const [read] = target.readCurves(target.writeCurves([curve.withStroke('s7')], 'json'), 'c.json');
   assert.deepEqual([read.stroke, read.technique, read.pointCount], ['s7', 'mimicry-live', 100]);
-  for (const format of ['obj', 'csv', 'ply', 'glb']) assert.ok(target.writeCurves([curve], format).length > 500);
+  for (const format of ['obj', 'csv', 'ply', 'glb', 'obj-polylines', 'ply-lines', 'glb-lines']) assert.ok(target.writeCurves([curve], format).length > 500);
   target.dispose();
   assert.ok(curve.length > 0, 'a curve keeps its target');
   curve.dispose();

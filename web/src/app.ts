@@ -332,12 +332,10 @@ export class App implements Actions {
   }
 
   exportCurves(format: CurveFormat): void {
-    const { history, modelToWorld } = this.studio.state.now;
     this.attempt(() => {
-      const { curves, styles } = keptCurves(history.drawing);
+      const { curves, styles } = keptCurves(this.studio.state.now.history.drawing);
       try {
-        const radius = styles.length > 0 ? styles.reduce((sum, style) => sum + style.radius_m, 0) / styles.length : 0.003;
-        this.download(this.studio.target!.writeCurves(curves, format, colorBytes(styles), radius / modelToWorld[7]!), `-curves.${format}`);
+        this.download(this.studio.target!.writeCurves(curves, format, colorBytes(styles)), `-curves.${format}`);
       } finally {
         for (const curve of curves) curve.dispose();
       }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +22,15 @@ struct CurveRecord {
   std::map<std::string, std::vector<double>> options;  ///< the technique's, by name
   Similarity model_to_world;
   curve::ProjectedCurve curve;
+  /// Of its tube in GLB and PLY files, model units: one for each point, > 0; or empty. Other files
+  /// do not keep it.
+  std::vector<double> radii = {};
 };
+
+/// The radii along `curve::polylines`, crossings included: linear in arc length between points.
+/// Throws Error(invalid_input) where there is not one for each point.
+std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
+                                                const TriangleMesh& mesh);
 
 /// All curves that were drawn on one target. Positions are in model units.
 struct CurveSet {
@@ -41,16 +47,17 @@ std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh);
 /// face counts other than the mesh's.
 CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh);
 
-/// One `o` a curve, named stroke and technique, with an `l` polyline for each part between gaps;
-/// all crossings are vertices of it.
-std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh);
+/// How an OBJ file says that points are joined.
+enum class ObjLines {
+  segments,  ///< an `l` with two vertices for each segment
+  polylines  ///< one `l` with all vertices of a part; importers exist that take its ends alone
+};
+
+/// One `o` a curve, named stroke and technique; all crossings are vertices.
+std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh,
+                             ObjLines lines = ObjLines::segments);
 
 /// One row a point, crossings included (columns in docs/formats.md), part and row in drawing order.
 std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh);
-
-/// Ascii PLY with `vertex` (x, y, z, red, green, blue, curve) and `edge` (vertex1, vertex2)
-/// elements. colors: one per curve, 0 to 255.
-std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
-                             std::span<const std::array<unsigned char, 3>> colors);
 
 }  // namespace mimicry::io

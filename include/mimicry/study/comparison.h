@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@ namespace mimicry::study {
 struct PairedMeasure {
   std::string name;
   std::vector<double> a, b;
+  /// Whose each pair is, as a number of any kind; empty: not known.
+  std::vector<std::size_t> participants = {};
 };
 
 struct Moments {
@@ -27,6 +30,11 @@ struct Comparison {
   WilcoxonResult test;  ///< z > 0 where a is larger
   Interval difference;  ///< confidence interval of the mean of a - b; NaN without pairs
   double p_holm = 1;    ///< over all measures given together
+  /// With pairs; 0 where it is not known whose they are.
+  int participants = 0;
+  /// The same test of the participants' means. Strokes of one person resemble each other: taken
+  /// for independent, as in `test`, they make p too small.
+  WilcoxonResult by_participant;
 };
 
 struct ComparisonOptions {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct RecordedPiece {
 
 struct RecordedStroke {
   std::vector<RecordedPiece> pieces;
+  std::optional<stroke::Simulation> simulated;  ///< Simulated; what the first piece says
   /// Why the file's stroke could not be read; empty where it could.
   std::string problem;
 };

@@ -90,6 +90,11 @@ std::string group_title(const std::string& name) {
   return title == "all" ? "All strokes" : escaped(title);
 }
 
+std::string lower_first(std::string text) {
+  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] += 'a' - 'A';
+  return text;
+}
+
 // Not by colour alone.
 std::string mark(bool agrees, const std::string& what) {
   return std::string(" <span class=\"") + (agrees ? "agrees" : "differs") + "\" title=\"" + what +
@@ -117,10 +122,14 @@ std::string paper_cells(const study::PaperFigure* paper, const study::Comparison
                                              : "our difference has another sign or significance"));
 }
 
+bool is_significant(const study::Comparison& c) {
+  return c.pairs > 0 && c.test.p() < 0.05;
+}
+
 std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
                            const std::string& group, bool with_paper) {
   const MeasureText& measure = *measure_text(c.name);
-  const bool significantly = c.pairs > 0 && c.test.p() < 0.05;
+  const bool significantly = is_significant(c);
   const auto strong = [significantly](const std::string& text) {
     return significantly ? tag("b", text) : text;
   };
@@ -131,6 +140,7 @@ std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
   html += cell(strong(shown(fixed(c.test.z, 2))));
   html += cell(strong(shown(probability(c.test.p()))));
   html += cell(shown(probability(c.p_holm)));
+  html += cell(shown(participants_probability(c)));
   html += cell(shown(fixed(c.test.effect_r, 2)));
   html +=
       cell(shown(significant(c.difference.low)) + " to " + shown(significant(c.difference.high)));
@@ -147,7 +157,8 @@ std::string comparison_table(const MethodPair& pair, double level) {
   }
   const bool with_paper = all.rows > 0;
   std::string head = "<th></th><th>" + method_label(pair.a) + "</th><th>" + method_label(pair.b) +
-                     "</th><th>z</th><th>p</th><th>p, Holm</th><th>r</th><th>difference, " +
+                     "</th><th>z</th><th>p</th><th>p, Holm</th><th>p, by "
+                     "participant</th><th>r</th><th>difference, " +
                      fixed(100 * level, 0) + " %</th>";
   std::string above;
   if (with_paper) {
@@ -155,12 +166,14 @@ std::string comparison_table(const MethodPair& pair, double level) {
         "<th class=\"paper\">spraycan</th><th class=\"paper\">mimicry</th>"
         "<th class=\"paper\">z</th><th class=\"paper\">p</th>";
     above =
-        "<tr><th colspan=\"8\"></th><th colspan=\"4\" class=\"paper group\">the paper</th></tr>";
+        "<tr><th colspan=\"9\"></th><th colspan=\"4\" class=\"paper group\">the paper</th></tr>";
   }
   std::string body;
   for (std::size_t g = 0; g < pair.groups.size(); ++g) {
     const PairedGroup& group = pair.groups[g];
     std::string title = tag("b", group_title(group.name)) + ": " + count(group.pairs, "pair");
+    if (const auto& rows = pair.comparisons[g]; !rows.empty() && rows.front().participants > 0)
+      title += " of " + count(static_cast<std::size_t>(rows.front().participants), "participant");
     if (group.failed > 0) title += ", " + std::to_string(group.failed) + " left out";
     if (group.unpaired > 0) title += ", " + std::to_string(group.unpaired) + " without a partner";
     std::string paper;
@@ -171,7 +184,7 @@ std::string comparison_table(const MethodPair& pair, double level) {
                     "pair") +
               "; agree: means " + std::to_string(agree.means) + ", differences " +
               std::to_string(agree.differences) + " of " + std::to_string(agree.rows);
-    body += "<tr class=\"head\"><td colspan=\"8\">" + title + "</td>" +
+    body += "<tr class=\"head\"><td colspan=\"9\">" + title + "</td>" +
             (with_paper ? "<td colspan=\"4\" class=\"paper\">" + paper + "</td>" : "") + "</tr>\n";
     for (const study::Comparison& c : pair.comparisons[g])
       body += comparison_row(c, pair, group.name, with_paper);
@@ -215,6 +228,46 @@ std::string introduction(const Summary& summary, const std::vector<RejectedStrok
   return tag("p", text);
 }
 
+// Says first what a reader must not miss.
+std::string simulation_notice(const Summary& summary) {
+  if (summary.simulated == 0) return "";
+  const std::size_t strokes = summary.counted.size() + summary.failed.size();
+  constexpr std::size_t kMost = 5;
+  std::vector<std::string> programs = summary.simulated_by;
+  if (programs.size() > kMost) {
+    programs.resize(kMost);
+    programs.emplace_back("and more");
+  }
+  const std::string which = summary.simulated == strokes ? "No person drew these strokes: they are"
+                                                         : std::to_string(summary.simulated) +
+                                                               " of " + count(strokes, "stroke") +
+                                                               " were drawn by no person: they are";
+  return tag("p class=\"notice\" id=\"simulated\"",
+             tag("b", "Simulated.") + " " + which + " made by " + joined_names(programs) +
+                 ". They show what the model of people assumes, and are no evidence of how people "
+                 "draw.") +
+         "\n";
+}
+
+// Of rows in bold, those whose interval spans 0: "T_c (tracing)".
+std::string bold_spanning_zero(const MethodPair& pair) {
+  std::vector<std::string> rows;
+  for (std::size_t g = 0; g < pair.groups.size(); ++g)
+    for (const study::Comparison& c : pair.comparisons[g])
+      if (is_significant(c) && c.difference.low <= 0 && c.difference.high >= 0)
+        rows.push_back(std::string(measure_text(c.name)->html) + " (" +
+                       lower_first(group_title(pair.groups[g].name)) + ")");
+  if (rows.empty()) return "";
+  std::string list;
+  for (const std::string& row : rows) list += (list.empty() ? "" : ", ") + row;
+  return tag("p id=\"spanning-zero\"",
+             "Bold, though the interval of the difference spans 0: " + list +
+                 ". The two ask different things. The test ranks the differences, so that most "
+                 "pairs decide; the interval is of their mean, which a few large differences move "
+                 "and widen.") +
+         "\n";
+}
+
 std::string comparisons(const Summary& summary, double level) {
   if (summary.pairs.empty())
     return tag("p", "There is one technique only: nothing to compare it with.");
@@ -222,12 +275,14 @@ std::string comparisons(const Summary& summary, double level) {
       "<p>Mean ± standard deviation over the pairs of which both strokes count. z and p: "
       "Wilcoxon's "
       "signed-rank test, z &gt; 0 where the first technique's values are larger; <b>bold</b> where "
-      "p &lt; .05. Holm: p corrected for all measures of a group. r = z / √N. Difference: "
-      "bootstrap "
-      "interval (BCa) of the mean difference. The same as <code>mimicry compare</code>.</p>\n";
+      "p &lt; .05. Holm: p corrected for all measures of a group. By participant: the test of the "
+      "participants' means; the strokes of one person resemble each other, which the test over "
+      "strokes (the paper's) takes no account of, so that its p is too small. r = z / √N. "
+      "Difference: bootstrap interval (BCa) of the mean difference. The same as <code>mimicry "
+      "compare</code>.</p>\n";
   for (const MethodPair& pair : summary.pairs) {
     if (summary.pairs.size() > 1) html += tag("h3", escaped(pair.a) + " and " + escaped(pair.b));
-    html += comparison_table(pair, level);
+    html += comparison_table(pair, level) + bold_spanning_zero(pair);
   }
   return html;
 }
@@ -392,7 +447,7 @@ std::string write_page(const Summary& summary, const std::vector<RejectedStroke>
   page += tag("title", escaped(options.title)) + "\n" + tag("style", kPageStyle) +
           "\n</head>\n<body>\n" + tag("h1", escaped(options.title)) + "\n";
   page +=
-      introduction(summary, rejected) + "\n" + tag("nav", links) +
+      simulation_notice(summary) + introduction(summary, rejected) + "\n" + tag("nav", links) +
       "\n<noscript><p>The plots need JavaScript; the tables and pictures do not.</p></noscript>\n";
   page += body;
   page += "<script type=\"application/json\" id=\"data\">" + inside_script(figure_data) +

@@ -35,6 +35,7 @@ h3 { font-size: 1rem; margin: 1.2rem 0 .3rem; }
 figure img { width: 100%; display: block; border: 1px solid #e3e3e3; }
 figcaption { font-size: .8rem; }
 details summary { cursor: pointer; }
+.notice { max-width: none; margin: .6rem 0; padding: .5rem .8rem; background: #fff3d6; border-left: 4px solid #c98a00; }
 noscript p { padding: .5rem .8rem; background: #fff3d6; }
 @media print { body { max-width: none; padding: 0; font-size: 11px; } .save, nav { display: none; }
   h2 { break-after: avoid; } figure, .plot { break-inside: avoid; } }

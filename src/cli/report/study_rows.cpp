@@ -67,6 +67,7 @@ StudyRows::StudyRows(io::CsvTable table, std::string name)
     row.index = cell("index");
     row.curve = cell("curve");
     row.repeat = cell("repeat");
+    row.simulated = cell("simulated");
     row.failed = is_set(cell("rejected"))
                      ? cell("rejected")
                      : joined({is_set(cell("short")) ? "too short" : "",

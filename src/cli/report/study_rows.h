@@ -19,6 +19,7 @@ struct StudyRow {
   std::string index;  ///< in the order drawn
   std::string curve;
   std::string repeat;
+  std::string simulated;  ///< by what: "mimicry 0.1.0 seed 1"; empty: not, as far as is known
   std::string failed;  ///< "too short, inverted" or the reason of the rejection; empty: it counts
   std::string method_cell, shape_cell;  ///< as the table has them: numbers in a study
 

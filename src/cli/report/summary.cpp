@@ -255,6 +255,8 @@ Summary summarise(const StudyRows& rows, const SummaryOptions& options) {
     (row.failed.empty() ? summary.counted : summary.failed).push_back(&row);
     if (!row.participant.empty()) participants.insert(row.participant);
     add_once(summary.tasks, row.task);
+    if (!row.simulated.empty()) ++summary.simulated;
+    add_once(summary.simulated_by, row.simulated);
   }
   if (all.empty())
     throw Error(ErrorKind::invalid_input, rows.file() + ": has only strokes of the tutorial, " +

@@ -75,8 +75,10 @@ struct FilterRate {
 struct Summary {
   std::vector<std::string> methods, tasks, shapes, measures;
   std::size_t participants = 0;
-  std::size_t tutorial = 0;              ///< rows left out
-  std::vector<const StudyRow*> counted;  ///< that passed the filters
+  std::size_t simulated = 0;              ///< strokes that no person drew, of all that follow
+  std::vector<std::string> simulated_by;  ///< programs with their versions and seeds
+  std::size_t tutorial = 0;               ///< rows left out
+  std::vector<const StudyRow*> counted;   ///< that passed the filters
   std::vector<const StudyRow*> failed;
   std::vector<MethodPair> pairs;
   std::vector<Box> by_task, by_shape;

@@ -1,7 +1,7 @@
 import type { Core, Curve, RecordedStroke, Target } from '../engine/core';
 import type { ModelSource } from '../studio';
-import type { Drawing, DrawnCurve, InkStyle } from './document';
-import { kFrameSize } from './frame';
+import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle } from './document';
+import { kFrameSize, kPressure } from './frame';
 import type { Range } from './kept';
 import type { MirrorAxis } from './symmetry';
 
@@ -90,7 +90,7 @@ function assemble(entries: readonly Entry[], strokes: readonly RecordedStroke[],
   return entries.map((entry, i): DrawnCurve => ({ ...entry, stroke: strokes[i]!, curve: curves[i]! }));
 }
 
-/** The curves that are left after erasing, for files: parts are curves of their own. The caller disposes of them. */
+/** The curves that are left after erasing, for files, as thick as the ink: parts are curves of their own. The caller disposes of them. */
 export function keptCurves(drawing: Drawing): { curves: Curve[]; styles: InkStyle[] } {
   const curves: Curve[] = [], styles: InkStyle[] = [];
   for (const drawn of drawing) {
@@ -101,17 +101,24 @@ export function keptCurves(drawing: Drawing): { curves: Curve[]; styles: InkStyl
       let to = frames.length;
       while (to > from && frames[to - 1]! > last) to -= 1;
       if (to <= from) return;
-      const slice = drawn.curve.slice(from, to);
-      if (drawn.kept.length > 1) {
-        curves.push(slice.withStroke(`${drawn.id}.${part + 1}`));
-        slice.dispose();
-      } else {
-        curves.push(slice);
-      }
+      let curve = drawn.curve.slice(from, to);
+      const replace = (by: Curve): void => {
+        curve.dispose();
+        curve = by;
+      };
+      replace(curve.withRadii(inkRadii(drawn, frames.subarray(from, to))));
+      if (drawn.kept.length > 1) replace(curve.withStroke(`${drawn.id}.${part + 1}`));
+      curves.push(curve);
       styles.push(drawn.style);
     });
   }
   return { curves, styles };
+}
+
+/** Of the ink at these frames, model units: by the pen's pressure where there is one. */
+function inkRadii({ stroke, style }: DrawnCurve, frames: Int32Array): Float64Array {
+  const radius = style.radius_m / stroke.modelToWorld[7]!;
+  return Float64Array.from(frames, (frame) => radius * widthOfPressure(stroke.frames[frame * kFrameSize + kPressure] ?? -1));
 }
 
 export function colorBytes(styles: readonly InkStyle[]): Uint8Array<ArrayBuffer> {

@@ -23,6 +23,6 @@ export const kExports: readonly { format: CurveFormat; title: string; what: stri
   { format: 'json', title: 'Curves, JSON', what: 'with edge crossings' },
   { format: 'glb', title: 'Scene, GLB', what: 'model and tubes in colour' },
   { format: 'obj', title: 'Polylines, OBJ', what: 'for modelling programs' },
-  { format: 'ply', title: 'Polylines, PLY', what: 'with colours' },
+  { format: 'ply', title: 'Tubes, PLY', what: 'with colours' },
   { format: 'csv', title: 'Table, CSV', what: 'a row a point' },
 ];

@@ -212,7 +212,7 @@ describe('drawings', () => {
       'Curves, JSON': (b) => JSON.parse(b.toString()).format === 'mimicry-curves',
       'Scene, GLB': (b) => b.subarray(0, 4).toString() === 'glTF',
       'Polylines, OBJ': (b) => /^l /m.test(b.toString()),
-      'Polylines, PLY': (b) => b.toString().startsWith('ply'),
+      'Tubes, PLY': (b) => b.toString('latin1').startsWith('ply\nformat binary_little_endian'),
       'Table, CSV': (b) => b.toString().startsWith('curve,stroke,'),
       'Recorded strokes': (b) => JSON.parse(b.toString()).format === 'mimicry-strokes',
     };

@@ -36,7 +36,7 @@ beforeEach(() => {
 });
 
 /** A stroke 3 cm in front of the sphere, to the right. */
-function draw(from = -0.05, to = 0.05, y = 0, count = 30): void {
+function draw(from = -0.05, to = 0.05, y = 0, count = 30, pressure: (i: number) => number = () => -1): void {
   const frame = makeFrame();
   const place = studio.state.now.modelToWorld;
   const [cx, cy, cz] = [place[4]!, place[5]!, place[6]!]; // the sphere is centred
@@ -45,7 +45,7 @@ function draw(from = -0.05, to = 0.05, y = 0, count = 30): void {
     frame[0] = i / 90;
     frame.set([cx, cy, cz + 1], kHead);
     frame.set([cx + from + ((to - from) * i) / (count - 1), cy + y, cz + place[7]! + 0.03], kController);
-    frame[kPressure] = -1;
+    frame[kPressure] = pressure(i);
     studio.addFrame(frame);
   }
   studio.endStroke();
@@ -200,6 +200,39 @@ describe('studio', () => {
     for (const curve of curves) curve.dispose();
     studio.undo();
     expect(studio.state.now.history.drawing[0]!.kept).toHaveLength(1);
+  });
+});
+
+describe('exported tubes', () => {
+  /** How far the nearest vertex of the tube is, by the GLB file's second mesh (the first is the model). */
+  function thickness(glb: Uint8Array, at: readonly number[]): number {
+    const view = new DataView(glb.buffer, glb.byteOffset);
+    const jsonBytes = view.getUint32(12, true);
+    const file = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + jsonBytes)));
+    const accessor = file.accessors[file.meshes[1].primitives[0].attributes.POSITION];
+    const start = 28 + jsonBytes + file.bufferViews[accessor.bufferView].byteOffset;
+    let nearest = Infinity;
+    for (let v = 0; v < accessor.count; v += 1) {
+      const x = [0, 4, 8].map((k) => view.getFloat32(start + 12 * v + k, true));
+      nearest = Math.min(nearest, Math.hypot(x[0]! - at[0]!, x[1]! - at[1]!, x[2]! - at[2]!));
+    }
+    return nearest;
+  }
+
+  it('are as thick as the ink at each point, each curve by its own style', () => {
+    studio.set({ style: { ...studio.settings.style, radius_m: 0.001 } });
+    draw(-0.05, 0.05, 0, 30, (i) => i / 29);
+    studio.set({ style: { ...studio.settings.style, radius_m: 0.004 } });
+    draw(-0.05, 0.05, 0.04);
+    const { curves } = keptCurves(studio.state.now.history.drawing);
+    const scale = studio.state.now.modelToWorld[7]!;
+    const of = (curve: (typeof curves)[number]) => studio.target!.writeCurves([curve], 'glb');
+    for (const point of [0, 15, 29]) {
+      const pressed = 0.001 * (0.35 + (1.3 * point) / 29);
+      expect((scale * thickness(of(curves[0]!), curves[0]!.point(point).position)) / pressed).toBeCloseTo(1, 1);
+      expect((scale * thickness(of(curves[1]!), curves[1]!.point(point).position)) / 0.004).toBeCloseTo(1, 1);
+    }
+    for (const curve of curves) curve.dispose();
   });
 });
 

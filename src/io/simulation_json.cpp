@@ -1,0 +1,23 @@
+#include "io/json.h"
+
+namespace mimicry::io {
+
+stroke::Simulation read_simulation(const Json& value, const std::string& where) {
+  stroke::Simulation simulation;
+  simulation.program = text(member(value, "program", where), where + ": program");
+  const Json& seed = member(value, "seed", where);
+  if (!seed.is_number_integer() || (!seed.is_number_unsigned() && seed.get<std::int64_t>() < 0))
+    json_fail(where + ": seed", "is not a whole number from 0");
+  simulation.seed = seed.get<std::uint64_t>();
+  if (value.contains("technique"))
+    simulation.technique = text(value["technique"], where + ": technique");
+  return simulation;
+}
+
+OrderedJson to_json(const stroke::Simulation& simulation) {
+  OrderedJson value = {{"program", simulation.program}, {"seed", simulation.seed}};
+  if (!simulation.technique.empty()) value["technique"] = simulation.technique;
+  return value;
+}
+
+}  // namespace mimicry::io
