@@ -11,6 +11,7 @@
 #include <mimicry/files/output_lock.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/session/stroke_session.h>
 #include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
 
@@ -35,7 +36,7 @@ struct SimulateArguments {
   int count = 1;
   std::uint64_t seed = 1;
   double rate_hz = 90.0;
-  std::optional<double> distance_m;
+  double distance_m = 0.048;
   double scale = 0.0;  // metres per mesh unit
   std::string up = "y";
   spatial::TargetOptions target;
@@ -86,31 +87,30 @@ Task task_of(const SimulateArguments& args, const NamedMesh& named, const spatia
   return {study::intended_curves(shape, target), info->metres_per_unit};
 }
 
-// Blind: drawn from start to end without a look at the ink.
-stroke::Stroke open_loop_stroke(const spatial::Target& target, const stroke::Intention& intended,
-                                const Similarity& placed, const SimulateArguments& args,
-                                std::uint64_t number) {
+// technique: whose ink the person sees; null: none's. All techniques get the same hand.
+stroke::Stroke make_stroke(const technique::Canvas& canvas, const stroke::Intention& intended,
+                           const Similarity& placed, const SimulateArguments& args,
+                           std::uint64_t number, const technique::TechniqueInfo* technique) {
   study::SimulationOptions options;
   options.rate_hz = args.rate_hz;
-  if (args.distance_m) options.mean_distance_m = *args.distance_m;
-  stroke::Stroke stroke = study::simulate(target, intended, placed, options, args.seed + number);
-  stroke.simulated = simulation_mark(args.seed, "");
+  options.mean_distance_m = args.distance_m;
+  const std::uint64_t seed = args.seed + number;
+  stroke::Stroke stroke;
+  if (technique == nullptr) {
+    stroke = study::simulate(*canvas.target, intended, placed, options, seed);
+  } else {
+    session::StrokeSession session(canvas, *technique);
+    session.begin(placed);
+    stroke =
+        study::simulate_closed_loop(*canvas.target, intended, placed, options, seed,
+                                    [&](const stroke::Frame& frame) -> std::optional<Vec3> {
+                                      if (session.add(frame) != session::FrameStatus::inked)
+                                        return std::nullopt;
+                                      return placed.point(session.curve().points.back().position);
+                                    });
+  }
+  stroke.simulated = simulation_mark(args.seed, technique == nullptr ? "" : technique->name);
   return stroke;
-}
-
-// The k-th person draws the curve with the technique; all techniques get the same people.
-stroke::Stroke closed_loop_stroke(const technique::Canvas& canvas,
-                                  const technique::TechniqueInfo& technique,
-                                  const stroke::Intention& intended, const Similarity& placed,
-                                  const SimulateArguments& args, std::size_t curve, int k) {
-  const study::PopulationOptions population;
-  study::Participant person = study::participant(population, args.seed, k);
-  person.hand.rate_hz = args.rate_hz;
-  if (args.distance_m) person.hand.mean_distance_m = *args.distance_m;
-  return draw_simulated(canvas, technique,
-                        {intended, {}, study::TaskKind::tracing, placed, args.seed, curve},
-                        population, person)
-      .stroke;
 }
 
 bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) {
@@ -146,10 +146,8 @@ void run_simulate(const SimulateArguments& args) {
       for (int k = 0; k < args.count; ++k) {
         // A curve's strokes stay the same when others are left out.
         const std::uint64_t number = 1000 * c + static_cast<std::uint64_t>(k);
-        strokes.push_back(technique == nullptr
-                              ? open_loop_stroke(target, task.curves[c], placed, args, number)
-                              : closed_loop_stroke(prepared.canvas(), *technique, task.curves[c],
-                                                   placed, args, c, k));
+        strokes.push_back(
+            make_stroke(prepared.canvas(), task.curves[c], placed, args, number, technique));
         strokes.back().target = named.name;
         if (args.count > 1) strokes.back().id += "#" + std::to_string(k);
         if (seen.size() > 1) strokes.back().id += "@" + std::string(technique->name);
@@ -186,13 +184,12 @@ void add_simulate(CLI::App& app, int&) {
   command->add_option("--rate", args->rate_hz, "Frames a second")
       ->check(number_between(20, 1000))
       ->capture_default_str();
-  command->add_option(
-      "--distance", args->distance_m,
-      "Mean distance from hand to surface, metres (default: 0.048, in closed loop about 0.046)");
+  command->add_option("--distance", args->distance_m, "Mean distance from hand to surface, metres")
+      ->capture_default_str();
   command
       ->add_option("--closed-loop", args->closed_loop,
-                   "People see the ink of these techniques, or all, and correct it (simulated "
-                   "participants); strokes for each")
+                   "The person sees the ink of these techniques, or all, and corrects the visible "
+                   "error; strokes for each")
       ->delimiter(',');
   command->add_option("--up", args->up, "The axis that points up in the mesh file: y or z")
       ->check(CLI::IsMember({"y", "z"}))

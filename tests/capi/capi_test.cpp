@@ -265,7 +265,7 @@ TEST(CApi, TubesAreAsThickAsTheirPoints) {
         text(make<Bytes>(mimicry_curves_write, target.get(), "shape",
                          std::vector<const mimicry_curve*>{plain.get()}.data(), std::size_t{1},
                          format, static_cast<const uint8_t*>(nullptr), 0.02)));
-  for (std::size_t i = 0; i < 60; ++i) radii[i] = 0.01 + 0.001 * double(i);
+  for (std::size_t i = 0; i < 60; ++i) radii[i] = 0.001 + 0.00002 * double(i);
   const auto growing = make<Curve>(mimicry_curve_with_radii, plain.get(), radii.data());
   const auto tube = make<Tube>(mimicry_curve_tube, growing.get(), 0.0, 12, 0.0);
   const float* x = mimicry_tube_positions(tube.get());

@@ -10,10 +10,7 @@ import os
 import sys
 
 import bpy
-try:
-    import numpy
-except ImportError:
-    numpy = None  # Blender then has no glTF importer that needs it
+import numpy
 
 # Blender 3.4's glTF importer uses a name that numpy has dropped since; where the two meet, it fails on any file.
 if not hasattr(numpy, "bool"):

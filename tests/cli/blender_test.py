@@ -16,8 +16,12 @@ READER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blender_reade
 FORMS = {"default": [], "other": ["--obj-lines", "polylines", "--curves-as", "lines"]}
 
 
-def run(*args):
-    done = subprocess.run(args, capture_output=True, text=True, timeout=300)
+# Blender's Python takes its packages from where the first python3 of PATH lies: the system's has numpy.
+SYSTEM = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
+
+
+def run(*args, env=None):
+    done = subprocess.run(args, capture_output=True, text=True, timeout=300, env=env, check=False)
     assert done.returncode == 0, (args, done.stdout[-3000:], done.stderr[-3000:])
 
 
@@ -34,7 +38,7 @@ class Blender(unittest.TestCase):
                 "--misses", "split", "--formats", "obj,ply,glb,csv", "-o", path(form), *options)
         files = [path(form, "curves" + e) for form in FORMS for e in (".obj", ".ply", ".glb")]
         run(BLENDER, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-            READER, "--", path("found.json"), *files)
+            READER, "--", path("found.json"), *files, env=SYSTEM)
         with open(path("found.json"), encoding="utf-8") as file:
             found = json.load(file)
         print("Blender " + found["version"])

@@ -185,8 +185,8 @@ class Report(unittest.TestCase):
             path = os.path.join(self.folder, "figures", i)
             root = xml.etree.ElementTree.parse(path + ".svg").getroot()
             self.assertTrue(root.tag.endswith("svg"))
-            texts = [t.text for t in root.iter() if t.tag.endswith("}text")]
-            self.assertTrue(any("rad/m" in (t or "") for t in texts), texts)
+            texts = ["".join(t.itertext()) for t in root.iter() if t.tag.endswith("}text")]
+            self.assertTrue(any("rad/m" in t for t in texts), texts)
             with open(path + ".png", "rb") as file:
                 head = file.read(24)
             self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
@@ -280,7 +280,7 @@ class Report(unittest.TestCase):
         def page_of(largest):
             """Most pairs differ by 1 in the same direction, one by much in the other."""
             with open(self.rows, "w", encoding="utf-8") as file:
-                print("method,participant,shape,index,K_E,D_ep_mm", file=file)
+                print("method,participant,shape,curve,K_E,D_ep_mm", file=file)
                 for i in range(40):
                     print("spraycan", "p", "cube", i, 100, 5 + 0.01 * i, sep=",", file=file)
                     print("mimicry", "p", "cube", i, 99 - 0.01 * i + (largest if i == 7 else 0), 5,
