@@ -168,7 +168,7 @@ void print_rows_json(const std::vector<TechniqueRow>& rows, const std::vector<st
     }
     list.push_back(entry);
   }
-  std::printf("%s\n", Json{{"techniques", list}, {"files", files}}.dump(2).c_str());
+  std::printf("%s\n", json_text({{"techniques", list}, {"files", files}}).c_str());
 }
 
 }  // namespace mimicry::cli
