@@ -46,7 +46,9 @@ pid_t start_node(const std::string& folder, int& script) {
   posix_spawn_file_actions_addclose(&actions, ends[1]);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
-  std::string name = "node", kind = "--input-type=commonjs", dash = "-", where = folder;
+  // It works in the folder: Node takes only names that are UTF-8.
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string name = "node", kind = "--input-type=commonjs", dash = "-", where = ".";
   char* arguments[] = {name.data(), kind.data(), dash.data(), where.data(), nullptr};
   pid_t child = 0;
   const int error = posix_spawnp(&child, "node", &actions, nullptr, arguments, environ);
