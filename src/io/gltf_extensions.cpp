@@ -17,7 +17,7 @@ constexpr std::array kHandled = {
 constexpr std::array kNotGeometry = {"_material",    "_texture",   "_light",    "_image",
                                      "_audio",       "_animation", "_xmp",      "_camera",
                                      "_environment", "_sampler",   "_metadata", "_feature",
-                                     "_physics",     "_emitter",   "_interact", "_techniques"};
+                                     "_physics",     "_emitter",   "_interact", "_technique"};
 
 /// What can change where a triangle is.
 constexpr std::array kGeometry = {"scenes",    "nodes",       "meshes", "skins",
