@@ -426,7 +426,8 @@ std::string write_page(const Summary& summary, const std::vector<RejectedStroke>
   for (const MethodPair& pair : summary.pairs) scatter = scatter || !pair.scatter.empty();
   if (scatter) add("smoothness", "Smoothness, pair by pair", smoothness(summary));
   add("distributions", "Distributions",
-      "<p>Bars: quartiles; white line: median; diamond: mean; thin line: 5 to 95 % of the strokes "
+      "<p>Bars: quartiles (of bars too thin for it, without the line); white line: median; "
+      "diamond: mean; thin line: 5 to 95 % of the strokes "
       "that pass the filters.</p>\n" +
           plot(kBoxesId, "Distributions of the measures"));
   add("by-shape", "Shape by shape", plot(kShapesId, "Distributions of the measures by shape"));
