@@ -15,9 +15,9 @@ inline constexpr int kMostThreads = 256;
 /// on the number of threads, provided that chunks write to places of their own.
 class Executor {
  public:
-  /// threads: 1 to kMostThreads; values outside count as the nearest. Where the platform has no
-  /// threads (WebAssembly without pthreads) everything runs in the caller. Where the system gives no
-  /// more threads there are fewer: `threads()` says how many.
+  /// threads: 1 to kMostThreads; others count as the nearest. Where the platform has no threads
+  /// (WebAssembly without pthreads) everything runs in the caller; where the system gives no more
+  /// there are fewer: `threads()` says how many.
   explicit Executor(int threads = 1);
   ~Executor();
   Executor(const Executor&) = delete;
