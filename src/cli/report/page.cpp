@@ -157,8 +157,8 @@ std::string comparison_table(const MethodPair& pair, double level) {
   }
   const bool with_paper = all.rows > 0;
   std::string head = "<th></th><th>" + method_label(pair.a) + "</th><th>" + method_label(pair.b) +
-                     "</th><th>z</th><th>p</th><th>p, Holm</th><th>p, by "
-                     "participant</th><th>r</th><th>difference, " +
+                     "</th><th>z</th><th>p</th><th>p, Holm</th><th>p, "
+                     "by<br>participant</th><th>r</th><th>difference, " +
                      fixed(100 * level, 0) + " %</th>";
   std::string above;
   if (with_paper) {

@@ -12,8 +12,8 @@ p { max-width: 60rem; margin: .5rem 0; }
 nav a { margin-right: 1rem; }
 a { color: #0057a3; }
 table { border-collapse: collapse; margin: .8rem 0; font-size: .85rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .22rem .6rem; text-align: right; white-space: nowrap; }
-th { font-weight: normal; color: #444; border-bottom: 1px solid #888; }
+th, td { padding: .22rem .5rem; text-align: right; white-space: nowrap; }
+th { font-weight: normal; vertical-align: bottom; color: #444; border-bottom: 1px solid #888; }
 th.group { text-align: center; }
 td:first-child, th:first-child, td.text, th.text { text-align: left; }
 td.reason { white-space: normal; min-width: 16rem; }
