@@ -89,7 +89,8 @@ class LsMeshStage {
         sample_values_(sample_values),
         executor_(executor),
         progress_(progress),
-        guess_(shell.positions, samples, sample_values) {}
+        guess_(shell.positions, samples, sample_values),
+        work_left_(kWork + kWorkOfFace * mesh.face_count()) {}
 
   Values run(BakeQuality& quality) {
     if (shell_.is_lattice) return lattice(quality);
@@ -102,6 +103,10 @@ class LsMeshStage {
   static constexpr double kHold = 1e-2;  // strength that holds what floats
   static constexpr int kMostDirect = 150;
   static constexpr int kMost = 1000;
+  // Vertices times iterations that all solves of a bake may take together, about a microsecond
+  // each: several times what sound meshes take.
+  static constexpr double kWork = 16e6;
+  static constexpr double kWorkOfFace = 800.0;
 
   template <class Element>
   LsMeshResult solve(LsMeshInput input, std::span<const Element> elements,
@@ -127,7 +132,12 @@ class LsMeshStage {
     }
     input.soft = soft;
     input.soft_values = &soft_values;
-    return ls_mesh(input, {.tolerance = tolerance, .most_iterations = most}, executor_, progress_);
+    const auto vertices = static_cast<double>(input.positions.size());
+    most = static_cast<int>(std::min<double>(most, std::max(0.0, work_left_ / vertices)));
+    LsMeshResult result =
+        ls_mesh(input, {.tolerance = tolerance, .most_iterations = most}, executor_, progress_);
+    work_left_ -= vertices * result.iterations;
+    return result;
   }
 
   Values guesses(std::size_t count) const {
@@ -217,7 +227,10 @@ class LsMeshStage {
     input.positions = shell_.positions;
     input.tets = shell_.tets;
     input.start = &start;
-    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(soft), on_surface, kMost);
+    // Its steps are rougher than what the last digits would change.
+    constexpr double kRough = 1e-4;
+    LsMeshResult result =
+        solve<Tet>(input, shell_.tets, std::move(soft), on_surface, kMost, kRough);
     quality.ls_mesh_iterations = result.iterations;
     quality.hit_a_cap = quality.hit_a_cap || !result.converged;
     result.values.topRows(mesh_.vertex_count()) = on_surface;
@@ -231,6 +244,7 @@ class LsMeshStage {
   Executor& executor_;
   const ProgressCallback& progress_;
   AffineGuess guess_;
+  double work_left_;
 };
 
 }  // namespace

@@ -42,6 +42,7 @@ class BlockPcg {
   float shift() const { return shift_; }
 
  private:
+  std::size_t widest_row() const;
   void assemble();
   bool factor(float shift);
   void precondition(const BlockVector& r, std::vector<float>& z) const;

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cassert>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include <mimicry/bake/delaunay.h>
@@ -146,6 +147,18 @@ bool Delaunay::in_conflict(Index c, const GridPoint& p) const {
   return in_sphere(point(x->v[0]), point(x->v[1]), point(x->v[2]), point(x->v[3]), p) > 0;
 }
 
+// Cells at the same edge of the cavity's hull are neighbours.
+void Delaunay::join_rims() {
+  std::sort(rims_.begin(), rims_.end(), [](const Rim& a, const Rim& b) {
+    return std::tie(a.low, a.high, a.cell) < std::tie(b.low, b.high, b.cell);
+  });
+  for (std::size_t k = 0; k + 1 < rims_.size(); k += 2) {
+    const Rim &a = rims_[k], &b = rims_[k + 1];
+    cells_[static_cast<std::size_t>(a.cell)].n[static_cast<std::size_t>(a.slot)] = b.cell;
+    cells_[static_cast<std::size_t>(b.cell)].n[static_cast<std::size_t>(b.slot)] = a.cell;
+  }
+}
+
 Index Delaunay::insert_one(Index v) {
   const GridPoint p = point(v);
   const Index home = locate(p, last_);
@@ -186,7 +199,9 @@ Index Delaunay::insert_one(Index v) {
     }
   }
   const std::size_t width = touched_.size();
-  if (table_.size() < width * width) table_.resize(width * width, kNone);
+  const bool is_wide = width > kWidestTable;
+  if (!is_wide && table_.size() < width * width) table_.resize(width * width, kNone);
+  rims_.clear();
 
   for (const Facet& facet : facets_) {
     const Index made = new_cell();
@@ -202,6 +217,10 @@ Index Delaunay::insert_one(Index v) {
       const Index from = local_[static_cast<std::size_t>(old.v[f[(j + 1) % 3]] + 1)];
       const Index to = local_[static_cast<std::size_t>(old.v[f[(j + 2) % 3]] + 1)];
       const std::size_t slot = f[j];
+      if (is_wide) {
+        rims_.push_back({std::min(from, to), std::max(from, to), made, static_cast<int>(slot)});
+        continue;
+      }
       Index& met = table_[static_cast<std::size_t>(to) * width + static_cast<std::size_t>(from)];
       if (met != kNone) {
         const auto other = static_cast<std::size_t>(met / 4);
@@ -219,6 +238,7 @@ Index Delaunay::insert_one(Index v) {
       if (u >= 0) incident_[static_cast<std::size_t>(u)] = made;
     last_ = made;
   }
+  join_rims();
   for (const Index u : touched_) local_[static_cast<std::size_t>(u + 1)] = kNone;
   for (const Index c : cavity_) {
     cells_[static_cast<std::size_t>(c)].v.fill(kFree);
@@ -273,8 +293,36 @@ Index Delaunay::find_in_star(Index v, Accept&& accept) const {
   return kNone;
 }
 
+// The stars of both ends are searched in step, so that the smaller one decides: a hub of many
+// thousand edges is not gone round for each of them.
 Index Delaunay::find_edge(Index u, Index v) const {
-  return find_in_star(u, [v](const Cell& c) { return c.has(v); });
+  struct Star {
+    Index centre, other;
+    std::vector<Index>& stack;
+    std::uint32_t stamp;
+  };
+  Star stars[2] = {{u, v, stack_, ++stamp_}, {v, u, other_stack_, ++stamp_}};
+  const auto push = [this](Star& star, Index c) {
+    if (seen_[static_cast<std::size_t>(c)] == star.stamp) return;
+    seen_[static_cast<std::size_t>(c)] = star.stamp;
+    star.stack.push_back(c);
+  };
+  for (Star& star : stars) {
+    star.stack.clear();
+    const Index first = incident_[static_cast<std::size_t>(star.centre)];
+    if (first == kNone) return kNone;
+    push(star, first);
+  }
+  for (std::size_t turn = 0;; turn = 1 - turn) {
+    Star& star = stars[turn];
+    if (star.stack.empty()) return kNone;
+    const Index c = star.stack.back();
+    star.stack.pop_back();
+    const Cell& x = cell(c);
+    if (x.has(star.other)) return c;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (x.v[i] != star.centre) push(star, x.n[i]);
+  }
 }
 
 bool Delaunay::has_face(Index a, Index b, Index c) const {

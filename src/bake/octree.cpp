@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
-
-#include <mimicry/base/error.h>
 
 #include "bake/morton.h"
 
@@ -44,8 +41,8 @@ std::vector<double> local_sizes(const TriangleMesh& mesh) {
   return sum;
 }
 
-Octree make_octree(const Surface& surface, const std::vector<double>& local_size,
-                   const Grading& grading, double half_side, Executor& executor) {
+std::optional<Octree> make_octree(const Surface& surface, const std::vector<double>& local_size,
+                                  const Grading& grading, double half_side, Executor& executor) {
   Octree octree;
   octree.half_side = half_side;
   struct Pending {
@@ -83,11 +80,7 @@ Octree make_octree(const Surface& surface, const std::vector<double>& local_size
         octree.cells.push_back(p.cell);
         continue;
       }
-      if (octree.cells.size() + next.size() > grading.most_cells)
-        throw Error(ErrorKind::invalid_input,
-                    "bake: a shell that reaches " + std::to_string(grading.offset) +
-                        " of the diagonal takes more than " + std::to_string(grading.most_cells) +
-                        " cells around this mesh; give a larger offset");
+      if (octree.cells.size() + next.size() > grading.most_cells) return std::nullopt;
       const std::int32_t half = p.cell.side / 2;
       for (int k = 0; k < 8; ++k) {
         Pending child{};

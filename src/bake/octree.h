@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <mimicry/base/parallel.h>
@@ -46,9 +47,8 @@ struct Grading {
 
 /// The leaves within `offset` of the surface, in a fixed order: a cell is split while it is larger
 /// than `side` times the local size of the triangles, plus slope times the distance beyond it.
-/// local_size: #V, unit mesh. Throws Error(invalid_input) where there would be more than
-/// most_cells.
-Octree make_octree(const Surface& surface, const std::vector<double>& local_size,
+/// local_size: #V, unit mesh. nullopt where there would be more than most_cells.
+std::optional<Octree> make_octree(const Surface& surface, const std::vector<double>& local_size,
                    const Grading& grading, double half_side, Executor& executor);
 
 /// The corners and, where `centres`, the centres of the cells, each once. They are points of the

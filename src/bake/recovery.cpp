@@ -90,10 +90,16 @@ bool Recovery::lies_on(Index v, Index face) const {
 
 // The edge u v lies in a face of the surface.
 bool Recovery::share_a_face(Index u, Index v) const {
-  const Index corner = u < mesh_.vertex_count() ? u
-                       : u >= free_end_         ? ties_[at(u - free_end_)].corners[0]
-                                                : kNone;
-  if (corner == kNone) return false;
+  const auto corner_of = [this](Index x) {
+    return x < mesh_.vertex_count() ? x
+           : x >= free_end_         ? ties_[at(x - free_end_)].corners[0]
+                                    : kNone;
+  };
+  const auto faces_around = [this](Index x) { return first_face_[at(x) + 1] - first_face_[at(x)]; };
+  Index corner = corner_of(u);
+  const Index other = corner_of(v);
+  if (corner == kNone || other == kNone) return false;
+  if (faces_around(other) < faces_around(corner)) corner = other;
   for (auto k = at(first_face_[at(corner)]); k < at(first_face_[at(corner) + 1]); ++k)
     if (lies_on(u, faces_at_[k]) && lies_on(v, faces_at_[k])) return true;
   return false;
@@ -328,8 +334,9 @@ bool Recovery::round() {
   return added;
 }
 
-void Recovery::count() {
+void Recovery::count(double most_edges) {
   missing_edges_ = static_cast<Index>(missing().size());
+  if (missing_edges_ > most_edges) return;
   std::vector<Piercing> piercings;
   std::vector<Cut> cuts;
   checked_ = 0;

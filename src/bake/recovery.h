@@ -22,8 +22,8 @@ class Recovery {
 
   /// One round; whether anything was added. Faces are looked at when no edge is missing.
   bool round();
-  /// Counts what is missing now.
-  void count();
+  /// Counts what is missing now; edges alone where more than so many are.
+  void count(double most_edges);
 
   const std::vector<Tie>& ties() const { return ties_; }
   Index missing_edges() const { return missing_edges_; }

@@ -44,6 +44,18 @@ class StageTimes {
   std::vector<std::pair<std::string, Clock::time_point>> stages_;
 };
 
+// Whether the mesh stands in the shell's tetrahedra, and where not, why.
+std::string kind_of_shell(const embedding::BakeQuality& q) {
+  if (!q.is_lattice) return "the mesh stands in it";
+  std::string why = "it would take too many tetrahedra";
+  if (q.missing_edges + q.pierced_faces > 0)
+    why = std::to_string(q.missing_edges) + " pieces of edges and " +
+          std::to_string(q.pierced_faces) + " faces are missing";
+  else if (q.shell_rounds == 0 && q.crossing_faces > 0)
+    why = "its edges cross " + std::to_string(q.crossing_faces) + " or more of its faces";
+  return "a lattice (the mesh does not stand in it: " + why + ")";
+}
+
 void run_bake(const BakeArguments& args) {
   const auto output_lock = files::OutputLock::of_file(args.out);
   const NamedMesh named = load_mesh(args.mesh);
@@ -57,8 +69,7 @@ void run_bake(const BakeArguments& args) {
   files::write_file_atomically(args.out, io::write_embedding(embedding));
   const embedding::BakeQuality& q = embedding.quality;
   std::printf("%s: %d vertices, %zu tetrahedra, %s\n", args.out.c_str(), embedding.vertex_count(),
-              embedding.tets.size(),
-              q.is_lattice ? "a lattice (the mesh does not stand in it)" : "the mesh stands in it");
+              embedding.tets.size(), kind_of_shell(q).c_str());
   std::printf("  stress %s, |d/D - 1| median %s, 99 %% %s, slivers %s %%\n",
               fixed(q.stress, 4).c_str(), fixed(q.distortion[0], 4).c_str(),
               fixed(q.distortion[2], 4).c_str(), fixed(q.sliver_percent, 2).c_str());

@@ -11,6 +11,8 @@
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "messy/messy_meshes.h"
+
 namespace mimicry::bake {
 namespace {
 
@@ -249,6 +251,41 @@ TEST(Bake, NeverFailsOnBadMeshes) {
     ASSERT_NO_THROW(e = bake(bad.mesh, {.samples = 50, .offset = 0.2}));
     expect_sound(bad.mesh, e);
   }
+}
+
+TEST(Bake, MessyMeshesStayWithinTheirSize) {
+  // Sizes and counts, which time and memory go with; bench/bake_budget_bench measures these.
+  // The thick shell keeps this quick.
+  for (const messy::Family& family : messy::families()) {
+    SCOPED_TRACE(family.name);
+    const TriangleMesh mesh = family.make(40, 5);
+    Embedding e;
+    ASSERT_NO_THROW(e = bake(mesh, {.samples = 12, .offset = 0.3}, 2));
+    expect_sound(mesh, e);
+    EXPECT_LT(e.vertex_count(), 80000 + 5 * mesh.face_count());
+    EXPECT_LT(static_cast<double>(e.vertex_count()) * e.quality.ls_mesh_iterations,
+              20e6 + 800.0 * mesh.face_count());
+  }
+}
+
+TEST(Bake, AMeshThatCrossesItselfEverywhereGetsTheLatticeAtOnce) {
+  const TriangleMesh soup = messy::families()[0].make(400, 6);
+  const Embedding e = bake(soup, {.samples = 30, .offset = 0.15});
+  expect_sound(soup, e);
+  EXPECT_TRUE(e.quality.is_lattice);
+  EXPECT_EQ(e.quality.shell_rounds, 0);
+  EXPECT_EQ(e.quality.missing_edges + e.quality.pierced_faces, 0);
+  EXPECT_GT(e.quality.crossing_faces, 100);
+}
+
+TEST(Bake, AFlatPolygonThatLiesOnItselfIsSmall) {
+  // An L, cut into a fan as if it were convex: two of its faces lie on each other. No tetrahedra
+  // hold both.
+  const TriangleMesh mesh({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+                          {{2, 3, 4}, {2, 4, 5}, {2, 5, 0}, {2, 0, 1}});
+  const Embedding e = bake(mesh);
+  expect_sound(mesh, e);
+  EXPECT_LT(e.tets.size(), 60000u);
 }
 
 TEST(Bake, VerticesAtOnePlaceShareTheirValue) {

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <random>
@@ -158,6 +159,31 @@ TEST(Delaunay, CosphericalPoints) {
   points.assign(1, {30, 30, 30});
   d.insert(points);
   expect_delaunay(d);
+}
+
+TEST(Delaunay, APointAmongThousandsAroundIt) {
+  // Points on a sphere, its centre last: the cavity's hull has them all. A table of pairs of them
+  // would take 100 MB.
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<GridPoint> points;
+  for (int k = 0; k < 5000; ++k) {
+    double d[3] = {normal(random), normal(random), normal(random)};
+    const double size = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    GridPoint p;
+    for (std::size_t i = 0; i < 3; ++i)
+      p[i] = static_cast<std::int32_t>((0.5 + 0.45 * d[i] / size) * kTop);
+    points.push_back(p);
+  }
+  Delaunay d;
+  d.insert(points);
+  const std::vector<Index> centre =
+      d.insert(std::vector<GridPoint>{{kTop / 2, kTop / 2, kTop / 2}});
+  expect_delaunay(d, false);
+  std::size_t joined = 0;
+  for (Index v = 0; v < centre[0]; ++v) joined += d.has_edge(v, centre[0]);
+  EXPECT_GT(joined, 4900u);
+  EXPECT_FALSE(d.has_edge(0, 1));
 }
 
 TEST(Delaunay, FlatInputHasNoTetrahedraUntilAPointLeavesThePlane) {

@@ -257,6 +257,44 @@ TEST(LsMesh, SurfacesWorkToo) {
     EXPECT_LT((result.values.row(v) - linear(mesh.position(v), 8)).cwiseAbs().maxCoeff(), 1e-7);
 }
 
+TEST(LsMesh, AVertexWithThousandsOfNeighbours) {
+  // A flat disc of two rings around one vertex, whose row couples each of its neighbours with each.
+  // With the outer ring and every third vertex of the inner one fixed to a linear function, that is
+  // what has no energy at the hub: the rest is nearly linear.
+  constexpr Index kAround = 3000;
+  std::vector<Vec3> positions = {Vec3::Zero()};
+  std::vector<Face> faces;
+  const auto number = [](Index ring, Index k) { return 1 + ring * kAround + k % kAround; };
+  for (Index ring = 0; ring < 2; ++ring)
+    for (Index k = 0; k < kAround; ++k) {
+      const double angle = 2.0 * 3.14159265358979 * k / kAround;
+      const double radius = ring == 0 ? 1.0 : 1.01;
+      positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+      if (ring == 0) {
+        faces.push_back({0, number(0, k), number(0, k + 1)});
+      } else {
+        faces.push_back({number(0, k), number(1, k), number(1, k + 1)});
+        faces.push_back({number(0, k), number(1, k + 1), number(0, k + 1)});
+      }
+    }
+  std::vector<Index> fixed;
+  for (Index k = 0; k < kAround; ++k) fixed.push_back(number(1, k));
+  for (Index k = 0; k < kAround; k += 3) fixed.push_back(number(0, k));
+  Values fixed_values(static_cast<Eigen::Index>(fixed.size()), 3);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    fixed_values.row(static_cast<Eigen::Index>(k)) = linear(positions[at(fixed[k])], 3);
+  LsMeshInput input;
+  input.positions = positions;
+  input.faces = faces;
+  input.fixed = fixed;
+  input.fixed_values = &fixed_values;
+  Executor executor(1);
+  const LsMeshResult result =
+      ls_mesh(input, {.tolerance = 1e-6, .most_iterations = 1000}, executor);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT((result.values.row(0) - linear(positions[0], 3)).norm(), 0.02);
+}
+
 TEST(LsMesh, SameBitsOnAnyNumberOfThreads) {
   const Cloud cloud = random_cloud(3000, 5);
   const std::vector<Index> fixed = every(9, cloud.positions.size());

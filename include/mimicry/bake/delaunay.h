@@ -55,7 +55,8 @@ class Delaunay {
   std::uint32_t batch() const { return batch_; }
   std::uint32_t made_in(Index c) const { return made_[static_cast<std::size_t>(c)]; }
 
-  /// A cell at the edge u v; kNone where there is no such edge. Looks through the star of u.
+  /// A cell at the edge u v; kNone where there is no such edge. Looks through the smaller one of
+  /// their stars.
   Index find_edge(Index u, Index v) const;
   bool has_edge(Index u, Index v) const { return find_edge(u, v) != kNone; }
   /// The face a b c exists. Looks through the star of a.
@@ -72,6 +73,7 @@ class Delaunay {
   bool in_conflict(Index c, const GridPoint& p) const;
   Index insert_one(Index v);  // v, or the number of the vertex that is there already
   Index new_cell();
+  void join_rims();
   template <class Accept>
   Index find_in_star(Index v, Accept&& accept) const;
 
@@ -90,12 +92,19 @@ class Delaunay {
   };
   mutable std::vector<std::uint32_t> seen_;  // #cells, stamps of the search for the cavity
   mutable std::uint32_t stamp_ = 0;
-  mutable std::vector<Index> stack_;
+  mutable std::vector<Index> stack_, other_stack_;
   std::vector<Index> cavity_;
   std::vector<Facet> facets_;
   std::vector<Index> local_;  // #V + 1, number within the cavity's hull
   std::vector<Index> touched_;
-  std::vector<Index> table_;
+  std::vector<Index> table_;  // by pairs of these numbers; of wider hulls the edges are sorted
+  static constexpr std::size_t kWidestTable = 1024;
+  // A new cell at an edge of the cavity's hull, its neighbour beyond the edge in `slot`.
+  struct Rim {
+    Index low, high, cell;
+    int slot;
+  };
+  std::vector<Rim> rims_;
 };
 
 }  // namespace mimicry::bake

@@ -19,7 +19,9 @@ struct BakeOptions {
 /// How well it went.
 struct BakeQuality {
   /// The shell is a cubic lattice, in which the mesh does not stand: points of the mesh project to
-  /// themselves only roughly.
+  /// themselves only roughly. So where pieces of edges or faces stayed missing; with none of them
+  /// counted, where edges of the mesh cross too many of its faces, or too many tetrahedra were
+  /// needed.
   bool is_lattice = false;
   /// A limit of the shell's refinement was hit (rounds, shortest edge, count), or of an iteration.
   bool hit_a_cap = false;
@@ -27,7 +29,7 @@ struct BakeQuality {
   Index added_vertices = 0;       ///< on the mesh's edges and faces
   Index missing_edges = 0;        ///< pieces of edges that the shell lacks
   Index pierced_faces = 0;        ///< faces that an edge of the shell crosses
-  Index crossing_faces = 0;       ///< faces that edges of the mesh itself cross
+  Index crossing_faces = 0;       ///< faces that edges of the mesh itself cross; not all of many
   Index joined_vertices = 0;      ///< vertices that stand where another stands, and share its value
   std::int32_t samples = 0;
   /// sqrt(sum w (d - D)^2 / sum w D^2) over the pairs of samples, w = 1 / D^2.
