@@ -97,11 +97,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const geodesic::Trace trace =
       geodesic::trace_straightest(mesh, edges, a, direction, 10.0, &crossings);
   require(trace.end.bary.allFinite() && trace.direction.allFinite());
+  require(trace.length <= 10.0);
+  require(trace.stop != geodesic::TraceStop::complete || trace.length == 10.0);
   require(std::isfinite(
       geodesic::parallel_transport(mesh, edges, a, crossings, trace.end, direction).sum()));
 
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
   geodesic::DiscreteExponentialMap map(mesh, edges, normals);
-  for (const Vec2& x : map.compute(a, 5.0).coordinates) require(x.allFinite());
+  const geodesic::ExponentialPatch& patch = map.compute(a, 5.0);
+  for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
+    const double length = patch.coordinates[k].norm();
+    require(length >= (mesh.position(patch.vertices[k]) - patch.origin).norm() - kTolerance);
+    require(length <= 5.0);
+  }
   return 0;
 }
