@@ -44,6 +44,9 @@ std::vector<SurfacePoint> vertex_points(const spatial::Target& target, Index v) 
     for (int k = 0; k < 3; ++k)
       if (source_vertex(target.mesh(), f, k) == v) found.insert(target.mesh().face(f)[at(k)]);
   }
+  const MeshSource* source = target.mesh().source();
+  if (found.empty() && source && source->surface_vertex[at(v)] != kNone)
+    found.insert(source->surface_vertex[at(v)]);
   std::vector<SurfacePoint> points;
   for (const Index s : found) points.push_back(geodesic::vertex_point(target.half_edges(), s));
   return points;
@@ -115,6 +118,11 @@ std::string distances_csv(const geodesic::ExactGeodesics& geodesics, const Trian
       distance = std::min(distance, geodesics.distance(surface.face(f)[at(k)]));
     }
   }
+  // Of a vertex of faces that were left out alone: the one at its place.
+  if (const MeshSource* source = surface.source())
+    for (std::size_t v = 0; v < distances.size(); ++v)
+      if (const Index s = source->surface_vertex[v]; s != kNone)
+        distances[v] = std::min(distances[v], geodesics.distance(s));
   std::string out = "vertex,distance\n";
   for (std::size_t v = 0; v < distances.size(); ++v) {
     out += std::to_string(v) + ',';

@@ -172,7 +172,7 @@ void run_render(const RenderArguments& args) {
   const NamedMesh named = load_mesh(args.mesh);
   // Intended curves are on the surface, whose faces may be turned.
   const TriangleMesh drawn_on = connect(named.mesh).mesh;
-  const double size = diagonal(named.mesh);
+  const double size = diagonal(drawn_on);
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.004 * size;
   render::Scene scene;
   scene.up = args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY();

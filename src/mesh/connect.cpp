@@ -74,6 +74,7 @@ class Connector {
         place_(std::move(place)),
         left_out_(at(mesh.face_count()), false),
         turned_(at(mesh.face_count()), false),
+        part_(at(mesh.face_count()), kNone),
         twins_(at(mesh.face_count()) * 3, kNone) {}
 
   Connected run() {
@@ -93,8 +94,8 @@ class Connector {
     constexpr int kMostRounds = 16;
     bool any = true;
     for (int round = 0; round < kMostRounds && any; ++round) {
-      any = leave_out_doubles();
-      any |= turn_faces(PlaceEdges(mesh_, place_, left_out_));
+      any = turn_faces(PlaceEdges(mesh_, place_, left_out_));
+      any |= leave_out_doubles();
     }
     for (Index f = 0; f < mesh_.face_count(); ++f)
       if (turned_[at(f)]) note(report_.turned_faces, f);
@@ -120,35 +121,60 @@ class Connector {
     return up == 0;
   }
 
-  // False where there were none to leave out.
-  bool leave_out_doubles() {
-    // Faces by their places: the first of each set stays.
-    std::vector<std::pair<Face, Index>> sorted;
-    sorted.reserve(at(mesh_.face_count()));
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (left_out_[at(f)]) continue;
-      Face key = places_of(f);
-      std::sort(key.begin(), key.end());
-      sorted.emplace_back(key, f);
+  // The places of a polygon's corners, sorted; empty where a face of it is left out.
+  std::vector<Index> outline(Index first, Index end) const {
+    std::vector<Index> places;
+    for (Index f = first; f < end; ++f) {
+      if (left_out_[at(f)]) return {};
+      for (const Index v : mesh_.face(f)) places.push_back(place_[at(v)]);
     }
-    std::sort(sorted.begin(), sorted.end());
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+  }
+
+  // For each face of a polygon that lies where an earlier one does (the same corners, however it
+  // is cut into triangles, from either side) the first face of that one; else kNone.
+  std::vector<Index> copies() const {
+    struct Polygon {
+      std::vector<Index> places;
+      Index first, end;
+    };
+    std::vector<Polygon> polygons;
+    for (Index first = 0; first < mesh_.face_count();) {
+      Index end = first + 1;
+      while (end < mesh_.face_count() && mesh_.polygon(end) == mesh_.polygon(first)) ++end;
+      if (std::vector<Index> places = outline(first, end); !places.empty())
+        polygons.push_back({std::move(places), first, end});
+      first = end;
+    }
+    std::sort(polygons.begin(), polygons.end(), [](const Polygon& a, const Polygon& b) {
+      return std::tie(a.places, a.first) < std::tie(b.places, b.first);
+    });
     std::vector<Index> copy_of(at(mesh_.face_count()), kNone);
-    bool any = false;
-    for (std::size_t i = 1, original = 0; i < sorted.size(); ++i) {
-      if (sorted[i].first != sorted[original].first) {
+    for (std::size_t i = 1, original = 0; i < polygons.size(); ++i) {
+      const Polygon &one = polygons[original], &other = polygons[i];
+      if (one.places != other.places || one.end - one.first != other.end - other.first) {
         original = i;
         continue;
       }
-      copy_of[at(sorted[i].second)] = sorted[original].second;
-      any = true;
+      for (Index f = other.first; f < other.end; ++f) copy_of[at(f)] = one.first;
     }
-    if (!any) return false;
+    return copy_of;
+  }
 
-    // A sheet of doubles is a wall, and stays, where its edges had their faces in pairs and would
-    // be left with three or more.
+  // False where there were none to leave out.
+  bool leave_out_doubles() {
+    const std::vector<Index> copy_of = copies();
+    if (std::all_of(copy_of.begin(), copy_of.end(), [](Index f) { return f == kNone; }))
+      return false;
+
+    // A sheet of doubles is a wall between solids, and stays, where its edges had their faces in
+    // pairs and would be left with three or more. What has a free edge, where the double meets but
+    // its original, walls nothing off.
     const PlaceEdges edges(mesh_, place_, left_out_);
     Sets sheets(mesh_.face_count());
-    std::vector<Index> walls;
+    std::vector<Index> walls, free;
     for (std::size_t e = 0; e < edges.count(); ++e) {
       const std::span<const Index> edge = edges.edge(e);
       Index first = kNone;
@@ -161,11 +187,17 @@ class Connector {
         else
           sheets.join(first, h / 3);
       }
-      if (first != kNone && stay > 2 && is_balanced(edges, edge)) walls.push_back(first);
+      if (first == kNone) continue;
+      if (stay > 2 && is_balanced(edges, edge)) walls.push_back(first);
+      const Index other = edge[0] / 3 == first ? edge.back() / 3 : edge[0] / 3;
+      if (stay == 1 && edge.size() == 2 &&
+          mesh_.polygon(copy_of[at(first)]) == mesh_.polygon(other))
+        free.push_back(first);
     }
     std::vector<bool> is_wall(at(mesh_.face_count()), false);
     for (const Index f : walls) is_wall[at(sheets.root(f))] = true;
-    any = false;
+    for (const Index f : free) is_wall[at(sheets.root(f))] = false;
+    bool any = false;
     DuplicateFinding& found = report_.doubled_faces;
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       if (copy_of[at(f)] == kNone || is_wall[at(sheets.root(f))]) continue;
@@ -185,51 +217,74 @@ class Connector {
     return turned_[at(f)] ? -volume : volume;
   }
 
-  // Edges of two faces tell whether these agree; a part is what they join. False where all do.
+  // The runs of an edge's half-edges that share both vertices by number, lowest first.
+  template <class Visit>
+  static void by_number(const PlaceEdges& edges, std::span<const Index> edge,
+                        std::vector<Index>& sorted, Visit&& visit) {
+    sorted.assign(edge.begin(), edge.end());
+    const auto ends = [&](Index h) { return std::minmax({edges.tail(h), edges.head(h)}); };
+    std::sort(sorted.begin(), sorted.end(),
+              [&](Index a, Index b) { return std::tuple(ends(a), a) < std::tuple(ends(b), b); });
+    for (std::size_t i = 0; i < sorted.size();) {
+      std::size_t end = i + 1;
+      while (end < sorted.size() && ends(sorted[end]) == ends(sorted[i])) ++end;
+      visit(std::span<const Index>(sorted.data() + i, end - i));
+      i = end;
+    }
+  }
+
+  // Edges of two faces, by number and then by place, tell whether these agree; a part is what they
+  // join. False where all do.
   bool turn_faces(const PlaceEdges& edges) {
     Sets parts(mesh_.face_count());
-    std::vector<Index> against;    // a face of each edge whose faces run against each other
-    std::vector<Index> one_sided;  // the same where that cannot be mended
-    std::vector<Index> open;       // faces with an edge of another number than two
+    std::vector<Index> against;   // a face of each edge whose faces run against each other
+    std::vector<Index> contrary;  // the same where turning faces would not mend it
+    std::vector<Index> open;      // faces with an edge that joins no two
+    const auto join = [&](Index a, Index b) {
+      const bool against_each_other = runs_up(edges, a) == runs_up(edges, b);
+      if (against_each_other) against.push_back(a / 3);
+      if (!parts.join(a / 3, b / 3, against_each_other)) contrary.push_back(a / 3);
+    };
+    std::vector<Index> sorted;
+    for (std::size_t e = 0; e < edges.count(); ++e)
+      by_number(edges, edges.edge(e), sorted, [&](std::span<const Index> run) {
+        if (run.size() == 2) join(run[0], run[1]);
+      });
     for (std::size_t e = 0; e < edges.count(); ++e) {
       const std::span<const Index> edge = edges.edge(e);
-      if (edge.size() != 2) {
-        for (const Index h : edge) open.push_back(h / 3);
-        continue;
-      }
-      const bool against_each_other = runs_up(edges, edge[0]) == runs_up(edges, edge[1]);
-      if (against_each_other) against.push_back(edge[0] / 3);
-      if (!parts.join(edge[0] / 3, edge[1] / 3, against_each_other))
-        one_sided.push_back(edge[0] / 3);
+      by_number(edges, edge, sorted, [&](std::span<const Index> run) {
+        if (run.size() == 2) return;
+        if (edge.size() == 2 && run[0] == edge[0]) join(edge[0], edge[1]);
+        if (edge.size() != 2)
+          for (const Index h : run) open.push_back(h / 3);
+      });
     }
+    for (Index f = 0; f < mesh_.face_count(); ++f) part_[at(f)] = parts.root(f);
     if (against.empty()) return false;
     struct Part {
-      bool mixed = false, one_sided = false, closed = true;
-      Index as_root = 0, against_root = 0;
+      bool closed = true;
+      Index against = 0, contrary = 0, as_root = 0, against_root = 0;
       double volume = 0.0;  // six times, with all faces as the root's
     };
     std::vector<Part> all(at(mesh_.face_count()));
-    const auto part = [&](Index f) -> Part& { return all[at(parts.root(f))]; };
-    for (const Index f : against) part(f).mixed = true;
-    for (const Index f : one_sided) part(f).one_sided = true;
+    const auto part = [&](Index f) -> Part& { return all[at(part_[at(f)])]; };
+    for (const Index f : against) ++part(f).against;
+    for (const Index f : contrary) ++part(f).contrary;
     for (const Index f : open) part(f).closed = false;
     for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (left_out_[at(f)]) continue;
+      if (left_out_[at(f)] || part(f).against == 0) continue;
       const Sets::Root root = parts.find(f);
-      Part& p = all[at(root.root)];
-      if (!p.mixed) continue;
-      ++(root.odd ? p.against_root : p.as_root);
-      p.volume += (root.odd ? -1.0 : 1.0) * volume_below(f, root.root);
+      ++(root.odd ? part(f).against_root : part(f).as_root);
+      part(f).volume += (root.odd ? -1.0 : 1.0) * volume_below(f, root.root);
     }
     bool any = false;
     for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (left_out_[at(f)]) continue;
-      const Sets::Root root = parts.find(f);
-      const Part& p = all[at(root.root)];
-      if (!p.mixed || p.one_sided) continue;
-      const bool root_turns =
-          p.closed && p.volume != 0.0 ? p.volume < 0.0 : p.against_root > p.as_root;
-      if (root.odd == root_turns) continue;
+      const Part& p = part(f);
+      // Of a one-sided part only what gets better by it.
+      if (left_out_[at(f)] || p.against <= p.contrary) continue;
+      const bool closed = p.closed && p.contrary == 0 && p.volume != 0.0;
+      const bool root_turns = closed ? p.volume < 0.0 : p.against_root > p.as_root;
+      if (parts.find(f).odd == root_turns) continue;
       turned_[at(f)] = !turned_[at(f)];
       any = true;
     }
@@ -247,27 +302,42 @@ class Connector {
 
   void pair_half_edges(const PlaceEdges& edges) {
     std::vector<EdgeSide> rest;
-    std::vector<Index> own;
+    std::vector<Index> sorted;
     for (std::size_t e = 0; e < edges.count(); ++e) {
       // Neighbours by number first.
-      own.assign(edges.edge(e).begin(), edges.edge(e).end());
-      const auto ends = [&](Index h) { return std::minmax({edges.tail(h), edges.head(h)}); };
-      std::sort(own.begin(), own.end(),
-                [&](Index a, Index b) { return std::tuple(ends(a), a) < std::tuple(ends(b), b); });
       rest.clear();
-      for (std::size_t i = 0; i < own.size();) {
-        std::size_t end = i + 1;
-        while (end < own.size() && ends(own[end]) == ends(own[i])) ++end;
-        if (end - i == 2 && runs_up(edges, own[i]) != runs_up(edges, own[i + 1]))
-          pair(own[i], own[i + 1]);
+      by_number(edges, edges.edge(e), sorted, [&](std::span<const Index> run) {
+        if (run.size() == 2 && runs_up(edges, run[0]) != runs_up(edges, run[1]))
+          pair(run[0], run[1]);
         else
-          for (std::size_t k = i; k < end; ++k) rest.push_back({own[k], runs_up(edges, own[k])});
-        i = end;
-      }
+          for (const Index h : run) rest.push_back({h, runs_up(edges, h)});
+      });
+      if (rest.size() > 2) pair_own_parts(rest);
       std::sort(rest.begin(), rest.end(),
                 [](const EdgeSide& a, const EdgeSide& b) { return a.h < b.h; });
       for (const auto& [a, b] : pair_sides(mesh_, turned_, rest)) pair(a, b);
     }
+  }
+
+  // The two faces of a part that comes to this edge with two are neighbours: bodies and sheets that
+  // touch others there go on.
+  void pair_own_parts(std::vector<EdgeSide>& sides) {
+    const auto part = [this](const EdgeSide& side) { return part_[at(side.h / 3)]; };
+    std::sort(sides.begin(), sides.end(), [&](const EdgeSide& a, const EdgeSide& b) {
+      return std::tuple(part(a), a.h) < std::tuple(part(b), b.h);
+    });
+    std::vector<EdgeSide> rest;
+    for (std::size_t i = 0; i < sides.size();) {
+      std::size_t end = i + 1;
+      while (end < sides.size() && part(sides[end]) == part(sides[i])) ++end;
+      if (end - i == 2 && sides[i].forward != sides[i + 1].forward)
+        pair(sides[i].h, sides[i + 1].h);
+      else
+        rest.insert(rest.end(), sides.begin() + static_cast<std::ptrdiff_t>(i),
+                    sides.begin() + static_cast<std::ptrdiff_t>(end));
+      i = end;
+    }
+    sides = std::move(rest);
   }
 
   // Corner 3 f + k in the order of the file's corners; half-edge h leaves corner h of a face that
@@ -295,6 +365,8 @@ class Connector {
   // stand there are cut out. True where something was; each time there are fewer pairs.
   bool separate(const PlaceEdges& edges) {
     bool any = false;
+    loosened_.assign(fan_of_.size(), false);
+    loose_at_.clear();
     std::vector<std::pair<std::pair<Index, Index>, Index>> keyed;
     for (std::size_t e = 0; e < edges.count(); ++e) {
       if (edges.edge(e).size() <= 2 && all_paired(edges.edge(e))) continue;
@@ -309,7 +381,28 @@ class Connector {
         i = end;
       }
     }
+    for (Index h = 0; h < 3 * mesh_.face_count(); ++h)
+      if (loosened_[at(fan_of_[at(h)])] || loosened_[at(fan_of_[at(next_corner(h))])])
+        if (is_loose(edges, h)) any |= open(h);
     return any;
+  }
+
+  // A pair that was made by place, or that folds a sheet onto itself.
+  bool is_loose(const PlaceEdges& edges, Index h) const {
+    const Index t = twins_[at(h)];
+    if (t < 0) return false;
+    const auto ends = [&](Index i) { return std::minmax({edges.tail(i), edges.head(i)}); };
+    return ends(h) != ends(t) || is_fold(mesh_, turned_, h, t);
+  }
+  // Of the pairs that this round begins with.
+  bool has_loose_pair(const PlaceEdges& edges, Index fan) {
+    if (loose_at_.empty()) {
+      loose_at_.assign(fan_of_.size(), false);
+      for (Index h = 0; h < 3 * mesh_.face_count(); ++h)
+        if (is_loose(edges, h))
+          loose_at_[at(fan_of_[at(h)])] = loose_at_[at(fan_of_[at(next_corner(h))])] = true;
+    }
+    return loose_at_[at(fan)];
   }
 
   bool all_paired(std::span<const Index> edge) const {
@@ -324,6 +417,17 @@ class Connector {
       if (twins_[at(a)] == kNone && twins_[at(b)] == kNone &&
           runs_up(edges, a) != runs_up(edges, b))
         return false;  // nothing else is there: they will close the surface
+    }
+    // Two pairs that run between the same two fans: what joined the fans is undone.
+    std::size_t paired = 0;
+    for (const auto& [fans, h] : sides) paired += twins_[at(h)] >= 0;
+    if (paired >= 4) {
+      const auto& [low, high] = sides.front().first;
+      for (const Index fan : {low, high})
+        if (has_loose_pair(edges, fan)) {
+          loosened_[at(fan)] = true;
+          return false;  // opened below
+        }
     }
     Index kept = kNone;
     for (const auto& [fans, h] : sides)
@@ -361,7 +465,7 @@ class Connector {
       if (is_joined) joined(lowest);
       if (edge.size() == 2 && is_open && runs_up(edges, edge[0]) == runs_up(edges, edge[1]))
         one_sided(lowest);
-      if (shares_vertices_of_three(edges, edge)) split(lowest);
+      if (edge.size() > 2 && (is_open || shares_vertices_of_three(edges, edge))) split(lowest);
     }
     report_.split_edges = split.finding(mesh_);
     report_.joined_edges = joined.finding(mesh_);
@@ -420,7 +524,6 @@ class Connector {
       positions.push_back(mesh_.position(v));
     }
     source->surface_vertex.assign(at(mesh_.vertex_count()), kNone);
-    std::vector<Index> fans_at(at(mesh_.vertex_count()), 0), last(at(mesh_.vertex_count()), kNone);
     std::vector<Face> faces(at(mesh_.face_count()), Face{0, 0, 0});
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       if (left_out_[at(f)]) continue;
@@ -432,6 +535,18 @@ class Connector {
       }
       if (turned_[at(f)]) std::swap(faces[at(f)][1], faces[at(f)][2]);
     }
+    // Vertices of faces that are left out are where others at their place are.
+    std::vector<Index> at_place(at(mesh_.vertex_count()), kNone);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      const Index s = source->surface_vertex[at(v)];
+      Index& known = at_place[at(place_[at(v)])];
+      if (s != kNone && (known == kNone || s < known)) known = s;
+    }
+    for (Index f = 0; f < mesh_.face_count(); ++f)
+      for (const Index v : mesh_.face(f)) {
+        Index& s = source->surface_vertex[at(v)];
+        if (s == kNone) s = at_place[at(place_[at(v)])];
+      }
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       if (!left_out_[at(f)]) continue;
       const Index s = source->surface_vertex[at(mesh_.face(f)[0])];
@@ -476,8 +591,10 @@ class Connector {
   const TriangleMesh& mesh_;
   std::vector<Index> place_;
   std::vector<bool> left_out_, turned_;
-  std::vector<Index> twins_;   // #H
-  std::vector<Index> fan_of_;  // #H: the lowest corner of each corner's fan
+  std::vector<Index> part_;                // #F: the faces that edges of two join, by their lowest
+  std::vector<Index> twins_;               // #H
+  std::vector<Index> fan_of_;              // #H: the lowest corner of each corner's fan
+  std::vector<bool> loosened_, loose_at_;  // #H, for a round of `separate`: fans by their root
   ConnectReport report_;
 };
 
@@ -489,6 +606,20 @@ bool uses_all_vertices(const HalfEdges& half_edges, Index vertices) {
 
 bool any_repeats(const TriangleMesh& mesh) {
   return std::any_of(mesh.faces().begin(), mesh.faces().end(), repeats_corner);
+}
+
+// Whether a face may lie on a neighbour: a sheet from both sides can be a manifold.
+bool any_folds(const TriangleMesh& mesh, const HalfEdges& half_edges) {
+  for (Index h = 0; h < half_edges.count(); ++h) {
+    const Index t = half_edges.twin(h);
+    if (t < h) continue;
+    if (half_edges.head(HalfEdges::next(h)) == half_edges.head(HalfEdges::next(t))) return true;
+    if (!mesh.has_polygons() || mesh.polygon(h / 3) == mesh.polygon(t / 3)) continue;
+    const Vec3 a = mesh.area_vector(h / 3), b = mesh.area_vector(t / 3);
+    if (a.dot(b) < 0.0 && a.cross(b).squaredNorm() <= 1e-12 * a.squaredNorm() * b.squaredNorm())
+      return true;
+  }
+  return false;
 }
 
 // Boundary edges that lie where another boundary edge runs the other way.
@@ -533,7 +664,8 @@ Connected connect(TriangleMesh mesh, const ConnectOptions& options) {
     for (std::size_t v = 0; v < place.size() && !shared; ++v)
       shared = place[v] != static_cast<Index>(v);
   }
-  if (!done && (!sound || any_repeats(mesh) || (shared && options.join))) {
+  if (!done && (!sound || any_repeats(mesh) || (shared && options.join) ||
+                any_folds(mesh, result.half_edges))) {
     if (!options.join) std::iota(place.begin(), place.end(), Index{0});
     Connected made = Connector(mesh, std::move(place)).run();
     const bool changed =

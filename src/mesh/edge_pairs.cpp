@@ -167,6 +167,13 @@ Pairs straightest(std::span<const EdgeSide> sides, const std::vector<Wing>& wing
 
 }  // namespace
 
+bool is_fold(const TriangleMesh& mesh, const std::vector<bool>& turned, Index a, Index b) {
+  const Wing from = wing_of(mesh, a, turned[at(a / 3)]), to = wing_of(mesh, b, turned[at(b / 3)]);
+  if (!from.has_area() || !to.has_area()) return false;
+  const double angle = angle_through_back(from, to);
+  return angle > kTau - kNoAngle;
+}
+
 Pairs pair_sides(const TriangleMesh& mesh, const std::vector<bool>& turned,
                  std::span<const EdgeSide> sides) {
   const auto forward = static_cast<std::size_t>(

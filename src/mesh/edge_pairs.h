@@ -26,4 +26,7 @@ std::vector<std::pair<Index, Index>> pair_sides(const TriangleMesh& mesh,
                                                 const std::vector<bool>& turned,
                                                 std::span<const EdgeSide> sides);
 
+/// Whether two faces that share an edge lie on each other.
+bool is_fold(const TriangleMesh& mesh, const std::vector<bool>& turned, Index a, Index b);
+
 }  // namespace mimicry

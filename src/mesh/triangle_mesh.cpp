@@ -50,8 +50,11 @@ void TriangleMesh::set_positions(std::span<const Vec3> positions) {
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
   std::vector<bool> used(at(mesh.vertex_count()), false);
-  for (const Face& f : mesh.faces())
+  for (const Face& f : mesh.faces()) {
+    const Vec3 &a = mesh.position(f[0]), &b = mesh.position(f[1]), &c = mesh.position(f[2]);
+    if (a == b || b == c || c == a) continue;  // no part of any surface
     for (const Index v : f) used[at(v)] = true;
+  }
   Eigen::AlignedBox3d box;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (used[at(v)] && is_finite(mesh.position(v))) box.extend(mesh.position(v));

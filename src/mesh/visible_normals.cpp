@@ -124,6 +124,8 @@ MostVisible most_visible_direction(std::span<const Vec3> unit_vectors) {
 void make_visible(const TriangleMesh& mesh, const HalfEdges& half_edges, std::span<Vec3> normals) {
   assert(normals.size() == mesh.positions().size());
   constexpr double kLeast = kVisibleDot - kRounding;
+  std::array<Index, 1024> moved;
+  moved.fill(kNone);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     // Most faces pass without a root; sizes whose squares vanish or overflow go the long way.
     const Vec3 area = mesh.area_vector(f);
@@ -131,11 +133,16 @@ void make_visible(const TriangleMesh& mesh, const HalfEdges& half_edges, std::sp
     const bool plain = least2 > 1e-200 && least2 < 1e200;
     const Vec3 face = plain ? area : face_normal(mesh, f);
     const double bound2 = plain ? least2 : kLeast * kLeast * face.squaredNorm();
-    // A vertex of several faces is moved once: then it passes, or is where it would be moved again.
+    // A vertex of several faces is moved once: then it passes, or is where it would be moved again,
+    // which the last ones moved are remembered for: around some, thousands of faces do not pass.
     for (const Index v : mesh.face(f)) {
       Vec3& normal = normals[static_cast<std::size_t>(v)];
       const double dot = normal.dot(face);
-      if (!(dot >= 0.0 && dot * dot >= bound2)) move_toward_visible(mesh, half_edges, v, normal);
+      if (dot >= 0.0 && dot * dot >= bound2) continue;
+      Index& last = moved[at(v) % moved.size()];
+      if (last == v) continue;
+      move_toward_visible(mesh, half_edges, v, normal);
+      last = v;
     }
   }
 }

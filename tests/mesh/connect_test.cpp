@@ -300,6 +300,92 @@ TEST(Connect, DoublesAreLeftOut) {
   }
 }
 
+TEST(Connect, DoubledPolygonsAreLeftOutHoweverTheyAreCut) {
+  // A square from both sides; the fan of the reversed list has the other diagonal.
+  const TriangleMesh quad({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},
+                          {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}, {0, 0, 1, 1});
+  const Connected made = connect(quad);
+  expect_surface(quad, made);
+  EXPECT_EQ(made.report.doubled_faces.count, 2);
+  EXPECT_NEAR(validate(made.mesh).area, 1.0, 1e-15);
+}
+
+TEST(Connect, TwoSidedSheetsThatMeetAreDoubles) {
+  // Pages on a spine, each from both sides; then a box with such a flag at an edge.
+  std::vector<Vec3> positions = {Vec3(0, 0, 0), Vec3(0, 0, 1)};
+  std::vector<Face> faces;
+  for (const Vec3& out : {Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0), Vec3(-0.5, -0.8, 0)}) {
+    const auto v = static_cast<Index>(positions.size());
+    positions.push_back(out);
+    positions.push_back(out + Vec3(0, 0, 1));
+    for (const Face& f : {Face{0, v, v + 1}, Face{0, v + 1, 1}}) {
+      faces.push_back(f);
+      faces.push_back(other_side(f));
+    }
+  }
+  const TriangleMesh pages(positions, faces);
+  for (const TriangleMesh& mesh : {pages, soup_of(pages)}) {
+    const Connected made = connect(mesh);
+    expect_surface(mesh, made);
+    EXPECT_EQ(made.report.doubled_faces.count, 6);
+    EXPECT_LE(parts(made.mesh), 3u);
+  }
+  const TriangleMesh cube = box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  faces = faces_of(cube);
+  positions.assign(cube.positions().begin(), cube.positions().end());
+  positions.push_back(Vec3(2, 2, 0.5));
+  faces.push_back({3, 7, 8});
+  faces.push_back({3, 8, 7});
+  const TriangleMesh flag(positions, faces);
+  const Connected made = connect(flag);
+  expect_surface(flag, made);
+  EXPECT_EQ(made.report.doubled_faces.count, 1);
+  const MeshReport report = validate(made.mesh);
+  ASSERT_EQ(report.components.size(), 2u);
+  EXPECT_TRUE(report.components[0].closed);
+}
+
+TEST(Connect, JoiningTearsNothingThatIsSoundByNumber) {
+  // A thin ribbon: the front of two squares and a back of its own vertices with other diagonals.
+  std::vector<Vec3> positions;
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 2; ++j) positions.emplace_back(i, j, 0);
+  std::vector<Face> faces;
+  for (Index i = 0; i < 2; ++i) {
+    const Index a = 2 * i, b = a + 1, c = a + 2, d = a + 3;
+    faces.insert(faces.end(), {{a, c, b}, {b, c, d}});
+    faces.insert(faces.end(), {{6 + a, 6 + b, 6 + d}, {6 + a, 6 + d, 6 + c}});
+  }
+  const TriangleMesh ribbon(positions, faces);
+  ASSERT_EQ(parts(ribbon), 2u);
+  const Connected made = connect(ribbon);
+  expect_surface(ribbon, made);
+  EXPECT_LE(parts(made.mesh), 2u);
+  const HalfEdges own(ribbon);
+  for (Index h = 0; h < own.count(); ++h)
+    if (own.has_twin(h)) EXPECT_EQ(made.half_edges.twin(h), own.twin(h)) << h;
+}
+
+TEST(Connect, BodiesThatTouchAreTurnedEachByItself) {
+  const TriangleMesh one = box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  for (const Vec3& at : {Vec3(1, 0, 0), Vec3(1, 1, 0)})
+    for (int turned = 0; turned < 12; ++turned) {
+      const TriangleMesh two = together(one, box(at, at + Vec3(1, 1, 1)));
+      auto faces = faces_of(two);
+      for (int k = 0; k <= turned; ++k)
+        faces[static_cast<std::size_t>(k)] = other_side(two.face(k));
+      const TriangleMesh mesh = with_faces(two, faces);
+      const Connected made = connect(mesh);
+      expect_surface(mesh, made);
+      const MeshReport report = validate(made.mesh);
+      EXPECT_EQ(report.components.size(), 2u) << turned;
+      EXPECT_TRUE(report.is_closed()) << turned;
+      // A body that is wholly inside out is somebody's choice.
+      EXPECT_NEAR(report.volume.value_or(0.0), turned == 11 ? 0.0 : 2.0, 1e-12) << turned;
+    }
+}
+
 TEST(Connect, CollapsedFacesAreLeftOutAndClosed) {
   // A face with two corners at one place, by number and by position, in a closed surface.
   const TriangleMesh ball = make_sphere(6);
@@ -325,6 +411,15 @@ TEST(Connect, AOneSidedStripIsOpened) {
   const MeshReport report = validate(made.mesh);
   EXPECT_EQ(report.components.size(), 1u);
   EXPECT_TRUE(report.components[0].orientable);
+  // Turned at random it is opened once more, not shattered.
+  std::mt19937 random(5);
+  auto faces = faces_of(strip);
+  for (Face& f : faces)
+    if (random() % 2) f = other_side(f);
+  const TriangleMesh mixed = with_faces(strip, faces);
+  const Connected mended = connect(mixed);
+  expect_surface(mixed, mended);
+  EXPECT_EQ(parts(mended.mesh), 1u);
 }
 
 TEST(Connect, AnyMessBecomesASurface) {
