@@ -364,7 +364,9 @@ TEST(Connect, JoiningTearsNothingThatIsSoundByNumber) {
   EXPECT_LE(parts(made.mesh), 2u);
   const HalfEdges own(ribbon);
   for (Index h = 0; h < own.count(); ++h)
-    if (own.has_twin(h)) EXPECT_EQ(made.half_edges.twin(h), own.twin(h)) << h;
+    if (own.has_twin(h)) {
+      EXPECT_EQ(made.half_edges.twin(h), own.twin(h)) << h;
+    }
 }
 
 TEST(Connect, BodiesThatTouchAreTurnedEachByItself) {

@@ -51,18 +51,22 @@ struct Connected {
 /// vertices and corners where they are not. A mesh that is such a surface comes back as it is.
 ///
 /// - Vertices that no face uses are left out.
-/// - A face with two corners at one place, and a face that lies where an earlier one does (same
-///   corners, either side), are left out: they keep their number, with all corners at one vertex.
-///   A double that walls off a part from another (two closed boxes that touch) stays.
-/// - Faces that run against their neighbours are turned, where the part is orientable: to the side
-///   that encloses a positive volume where the part is closed, else to that of most faces.
+/// - A face with two corners at one place, and the faces of a polygon that lies where an earlier one
+///   does (same corners, either side), are left out: they keep their number, with all corners at one
+///   vertex. Doubles that wall off a part from another (two closed boxes that touch) stay.
+/// - Faces that run against their neighbours are turned: to the side that encloses a positive volume
+///   where the part is closed, else to that of most faces; in a one-sided part where it mends more
+///   edges than it leaves.
 /// - Half-edges that share both vertices and run against each other are neighbours. The rest is
 ///   paired by position: vertices at equal positions (bit by bit, -0 taken for 0) are joined where
 ///   that closes boundary edges in pairs, and never so that an edge gets a third face.
-/// - Of three or more faces at an edge the two of each solid are neighbours, where the faces bound
-///   solids that touch there: boxes that touch stay boxes. Elsewhere those are whose angles,
-///   measured through the surface's back, differ least from straight (sum of squares): a fin on a
-///   sheet is opened. Edges of more than 64 faces are opened.
+/// - Of three or more faces at an edge the two of each part are neighbours, where a part comes with
+///   two; of what is left the two of each solid, where the faces bound solids that touch there:
+///   boxes that touch stay boxes. Elsewhere those are whose angles, measured through the surface's
+///   back, differ least from straight (sum of squares): a fin on a sheet is opened. Edges of more
+///   than 64 faces are opened.
+/// - Where joined vertices would let two edges run between the same two vertices the join is undone
+///   beside them (a sheet and its back meet at a rim).
 /// - A vertex where several fans meet becomes one for each.
 ///
 /// Never throws. O(n log n), n = #V + #F; for a sound mesh about the time of its HalfEdges and a
@@ -70,8 +74,8 @@ struct Connected {
 Connected connect(TriangleMesh mesh, const ConnectOptions& options = {});
 
 /// The counts and findings of a mesh, with the measures, components and boundary of the surface
-/// that was made of it (`validate` of that): what it is as one draws on it. `is_manifold` and
-/// `is_closed` speak of the findings, not of the surface.
+/// that was made of it (`validate` of that): what it is as one draws on it. Its `is_manifold` and
+/// `is_closed` speak of the mesh, those of `surface` of the surface.
 MeshReport report_as_drawn(const TriangleMesh& mesh, const MeshReport& surface);
 
 }  // namespace mimicry
