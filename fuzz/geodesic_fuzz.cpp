@@ -2,6 +2,7 @@
 // points on lines are the rule, and a pair of points on it. Nothing may crash, hang or give a
 // number that is none; a path is as long as it says and no shorter than the straight line.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 #include <mimicry/geodesic/exponential_map.h>
 #include <mimicry/geodesic/local_path.h>
 #include <mimicry/geodesic/straightest.h>
+#include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/normals.h>
 
 namespace {
@@ -31,8 +33,14 @@ struct Bytes {
   }
 };
 
+bool is_left_out(const Face& f) {
+  return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+}
+
 SurfacePoint point(Bytes& bytes, const TriangleMesh& mesh) {
   SurfacePoint p{static_cast<Index>(bytes.next() % mesh.face_count()), Vec3::Zero()};
+  // Not on a face that is left out; there is one that is not.
+  while (is_left_out(mesh.face(p.face))) p.face = (p.face + 1) % mesh.face_count();
   Vec3 weights(bytes.next() % 5, bytes.next() % 5, bytes.next() % 5);
   if (weights.sum() == 0.0) weights[0] = 1.0;
   p.bary = weights / weights.sum();
@@ -63,8 +71,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<Face> faces;
   for (int f = 0; f < count; ++f)
     faces.push_back({bytes.next() % vertices, bytes.next() % vertices, bytes.next() % vertices});
-  const TriangleMesh mesh(positions, faces);
-  const HalfEdges edges(mesh);
+  const Connected surface = connect(TriangleMesh(positions, faces));
+  const TriangleMesh& mesh = surface.mesh;
+  const HalfEdges& edges = surface.half_edges;
+  if (std::all_of(mesh.faces().begin(), mesh.faces().end(), is_left_out)) return 0;
   const SurfacePoint a = point(bytes, mesh);
   const SurfacePoint b = point(bytes, mesh);
   const double straight = (mesh.position(a) - mesh.position(b)).norm();
