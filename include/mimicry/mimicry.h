@@ -429,9 +429,15 @@ MIMICRY_API void mimicry_curve_list_destroy(mimicry_curve_list* list);
 /* Strokes ------------------------------------------------------------------------------------ */
 
 MIMICRY_API mimicry_status mimicry_strokes_create(mimicry_strokes** out); /* none yet */
-/* The content of a mimicry-strokes file (docs/formats.md), whatever its convention. */
+/* The sound strokes of a mimicry-strokes file (docs/formats.md), whatever its convention. A stroke
+ * with a frame or a field that cannot be used is left out as a whole and does not refuse the
+ * others. Fails where the fault is the file's, or no stroke is sound and some were left out. */
 MIMICRY_API mimicry_status mimicry_strokes_read(const void* data, size_t size, const char* name,
                                                 mimicry_strokes** out);
+/* What was left out of the file: how much, and of each the place, the fault and the remedy; NULL
+ * where there is no such number. */
+MIMICRY_API size_t mimicry_strokes_left_out_count(const mimicry_strokes* strokes);
+MIMICRY_API const char* mimicry_strokes_left_out(const mimicry_strokes* strokes, size_t number);
 MIMICRY_API mimicry_status mimicry_strokes_append(mimicry_strokes* strokes, const char* id,
                                                   const char* target_name,
                                                   const mimicry_similarity* model_to_world,

@@ -7,6 +7,7 @@ using namespace mimicry::capi;
 
 struct mimicry_strokes {
   std::vector<stroke::Stroke> strokes;
+  std::vector<std::string> left_out;  // when it was read
 
   const stroke::Stroke& at(std::size_t number) const {
     if (number >= strokes.size())
@@ -23,7 +24,8 @@ mimicry_status mimicry_strokes_create(mimicry_strokes** out) {
 mimicry_status mimicry_strokes_read(const void* data, size_t size, const char* name,
                                     mimicry_strokes** out) {
   return made(out, [&] {
-    return mimicry_strokes{io::read_strokes(content(data, size), text(name, "name"))};
+    io::StrokesFile file = io::read_strokes(content(data, size), text(name, "name"));
+    return mimicry_strokes{std::move(file.strokes), std::move(file.left_out)};
   });
 }
 
@@ -49,6 +51,14 @@ mimicry_status mimicry_strokes_write(const mimicry_strokes* strokes, mimicry_byt
     require(strokes, "strokes");
     return mimicry_bytes{io::write_strokes(strokes->strokes)};
   });
+}
+
+size_t mimicry_strokes_left_out_count(const mimicry_strokes* strokes) {
+  return strokes ? strokes->left_out.size() : 0;
+}
+const char* mimicry_strokes_left_out(const mimicry_strokes* strokes, size_t number) {
+  return number < mimicry_strokes_left_out_count(strokes) ? strokes->left_out[number].c_str()
+                                                          : nullptr;
 }
 
 size_t mimicry_strokes_count(const mimicry_strokes* strokes) {

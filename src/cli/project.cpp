@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mimicry/base/error.h>
@@ -13,7 +14,6 @@
 #include <mimicry/io/curves_glb.h>
 #include <mimicry/io/curves_ply.h>
 #include <mimicry/io/number.h>
-#include <mimicry/io/strokes.h>
 #include <mimicry/io/tube_mesh.h>
 #include <mimicry/render/palette.h>
 #include <mimicry/session/stroke_session.h>
@@ -24,6 +24,7 @@
 #include "cli/console.h"
 #include "cli/mesh_input.h"
 #include "cli/project_table.h"
+#include "cli/strokes_input.h"
 
 namespace mimicry::cli {
 namespace {
@@ -110,15 +111,36 @@ std::vector<Vec3> world_points(const std::vector<std::vector<Vec3>>& parts,
   return points;
 }
 
-void require_on_mesh(const Stroke& stroke, const NamedMesh& named) {
-  if (!stroke.intended) return;
+/// Why the stroke cannot have been made for this mesh; empty where it can.
+std::string misfit(const Stroke& stroke, const NamedMesh& named) {
+  if (!stroke.intended) return "";
   for (const SurfacePoint& p : stroke.intended->points)
     if (p.face >= named.mesh.face_count())
-      throw Error(ErrorKind::invalid_input,
-                  "stroke '" + stroke.id + "': its intended curve names face " +
-                      std::to_string(p.face) + ", but " + named.name + " has " +
-                      std::to_string(named.mesh.face_count()) +
-                      " faces; give the mesh that the stroke was made for");
+      return "stroke '" + stroke.id + "': its intended curve names face " + std::to_string(p.face) +
+             ", but " + named.name + " has " + std::to_string(named.mesh.face_count()) +
+             " faces; give the mesh that the stroke was made for";
+  return "";
+}
+
+// Those that can be projected on this mesh; throws where none is left.
+std::vector<Stroke> fitting_strokes(std::vector<Stroke> strokes, const NamedMesh& named,
+                                    int& status) {
+  std::vector<Stroke> fitting;
+  std::vector<std::string> misfits;
+  for (Stroke& stroke : strokes) {
+    const std::string problem = misfit(stroke, named);
+    if (!problem.empty()) {
+      misfits.push_back(problem);
+      continue;
+    }
+    if (stroke.target != named.name)
+      complain("stroke '" + stroke.id + "' was drawn on '" + stroke.target +
+               "'; it is projected on '" + named.name + "'");
+    fitting.push_back(std::move(stroke));
+  }
+  if (fitting.empty() && !misfits.empty()) throw Error(ErrorKind::invalid_input, misfits.front());
+  for (const std::string& problem : misfits) tell_left_out(problem, status);
+  return fitting;
 }
 
 std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh& mesh) {
@@ -203,24 +225,14 @@ std::vector<double> radii_of(const Stroke& stroke, const curve::ProjectedCurve& 
   return radii;
 }
 
-std::vector<Stroke> load_strokes(const std::string& path, const NamedMesh& named) {
-  std::vector<Stroke> strokes =
-      io::read_strokes(files::read_file(path), std::filesystem::path(path).filename().string());
-  for (const Stroke& stroke : strokes) {
-    require_on_mesh(stroke, named);
-    if (stroke.target != named.name)
-      complain("stroke '" + stroke.id + "' was drawn on '" + stroke.target +
-               "'; it is projected on '" + named.name + "'");
-  }
-  return strokes;
-}
-
-void run_project(const ProjectArguments& args) {
+void run_project(const ProjectArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
   const spatial::Target target = make_target(named, args.target);
-  const std::vector<Stroke> strokes = load_strokes(args.strokes, named);
+  const std::vector<Stroke> strokes =
+      fitting_strokes(load_strokes(args.strokes, status), named, status);
   std::vector<Stroke> beside;
-  if (!args.beside.empty()) beside = load_strokes(args.beside, named);
+  if (!args.beside.empty())
+    beside = fitting_strokes(load_strokes(args.beside, status), named, status);
   auto chosen = chosen_techniques(args.techniques);
   if (!strokes.empty())
     std::erase_if(chosen, [&](const TechniqueInfo* info) {
@@ -280,7 +292,7 @@ void run_project(const ProjectArguments& args) {
 
 }  // namespace
 
-void add_project(CLI::App& app, int&) {
+void add_project(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("project", "Project recorded strokes on a mesh");
   auto args = std::make_shared<ProjectArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
@@ -333,7 +345,7 @@ void add_project(CLI::App& app, int&) {
       ->capture_default_str();
   add_target_options(*command, args->target);
   command->add_flag("--json", args->json, "The table for programs");
-  command->callback([args] { run_project(*args); });
+  command->callback([args, &status] { run_project(*args, status); });
 }
 
 }  // namespace mimicry::cli

@@ -9,9 +9,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
+#include <mimicry/io/csv.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/io/number.h>
-#include <mimicry/io/strokes.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/render/figure.h>
 #include <mimicry/render/palette.h>
@@ -21,6 +21,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/mesh_input.h"
+#include "cli/strokes_input.h"
 
 namespace mimicry::cli {
 namespace {
@@ -82,26 +83,23 @@ render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh
 // The column of a `vertex,distance` file; what is unreachable gets the largest distance, so that no
 // line runs through it.
 std::vector<double> read_distances(const std::string& path, Index vertices) {
-  const std::string bytes = files::read_file(path);
+  const io::CsvTable table = io::read_csv(files::read_file(path), name_of(path));
+  const auto vertex_at = table.find("vertex"), distance_at = table.find("distance");
+  if (!vertex_at || !distance_at)
+    throw Error(ErrorKind::invalid_input, name_of(path) +
+                                              ": the heading is not vertex,distance; write it with "
+                                              "mimicry geodesic");
   std::vector<double> distances(static_cast<std::size_t>(vertices), kInfinity);
   double largest = 0.0;
-  std::size_t line_number = 1;
-  for (std::size_t start = bytes.find('\n');
-       start != std::string::npos && start + 1 < bytes.size();) {
-    ++line_number;
-    const std::size_t end = std::min(bytes.find('\n', start + 1), bytes.size());
-    const std::string line = bytes.substr(start + 1, end - start - 1);
-    const std::size_t comma = line.find(',');
-    const auto vertex = io::parse_integer(line.substr(0, comma));
-    const auto distance =
-        comma == std::string::npos ? std::nullopt : io::parse_double(line.substr(comma + 1));
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto vertex = io::parse_integer(table.rows[i][*vertex_at]);
+    const auto distance = io::parse_double(table.rows[i][*distance_at]);
     if (!vertex || *vertex < 0 || *vertex >= vertices || !distance || std::isnan(*distance))
       throw Error(ErrorKind::invalid_input,
-                  name_of(path) + ": line " + std::to_string(line_number) +
+                  name_of(path) + ": line " + std::to_string(table.lines[i]) +
                       ": is not vertex,distance of this mesh; write it with mimicry geodesic");
     distances[static_cast<std::size_t>(*vertex)] = *distance;
     if (std::isfinite(*distance)) largest = std::max(largest, *distance);
-    start = end;
   }
   for (double& d : distances) d = std::min(d, largest);
   return distances;
@@ -168,7 +166,7 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveS
   return panels;
 }
 
-void run_render(const RenderArguments& args) {
+void run_render(const RenderArguments& args, int& status) {
   const NamedMesh named = load_mesh(args.mesh);
   // Intended curves are on the surface, whose faces may be turned.
   const TriangleMesh drawn_on = connect(named.mesh).mesh;
@@ -183,8 +181,7 @@ void run_render(const RenderArguments& args) {
     surface.iso_spacing = args.iso_spacing > 0.0 ? args.iso_spacing : 0.04 * size;
   }
   std::vector<stroke::Stroke> strokes;
-  if (!args.strokes.empty())
-    strokes = io::read_strokes(files::read_file(args.strokes), name_of(args.strokes));
+  if (!args.strokes.empty()) strokes = load_strokes(args.strokes, status);
   if (!args.stroke.empty())
     std::erase_if(strokes, [&](const stroke::Stroke& s) { return s.id != args.stroke; });
   io::CurveSet set;
@@ -236,7 +233,7 @@ void run_render(const RenderArguments& args) {
 
 }  // namespace
 
-void add_render(CLI::App& app, int&) {
+void add_render(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("render", "Make a picture of a mesh, strokes and curves");
   auto args = std::make_shared<RenderArguments>();
   command->add_option("mesh", args->mesh, kMeshHelp)->required();
@@ -283,7 +280,7 @@ void add_render(CLI::App& app, int&) {
   command->add_option("--width", args->width, "Pixels, of a panel where there are several")
       ->check(CLI::Range(1, 16384));
   command->add_option("--height", args->height, "Pixels")->check(CLI::Range(1, 16384));
-  command->callback([args] { run_render(*args); });
+  command->callback([args, &status] { run_render(*args, status); });
 }
 
 }  // namespace mimicry::cli

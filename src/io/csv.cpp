@@ -101,8 +101,7 @@ std::optional<std::size_t> CsvTable::find(std::string_view column) const {
 }
 
 CsvTable read_csv(std::string_view bytes, std::string_view name) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
+  bytes = text_of(bytes, name);
   CsvTable table;
   std::size_t line = 1;
   std::vector<std::string> fields;

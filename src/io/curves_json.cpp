@@ -5,6 +5,7 @@
 #include <mimicry/mesh/mesh_source.h>
 
 #include "io/json.h"
+#include "io/text.h"
 
 namespace mimicry::io {
 namespace {
@@ -177,7 +178,7 @@ CurveSet read_curves_json(std::string_view bytes, std::string_view name, const T
   const std::string file(name);
   Json document;
   try {
-    document = parse_json(bytes);
+    document = parse_json(text_of(bytes, name));
   } catch (const Json::parse_error& error) {
     json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception& error) {

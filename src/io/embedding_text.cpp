@@ -16,7 +16,8 @@ constexpr double kLargest = 1e30;
 
 class TextReader {
  public:
-  TextReader(std::string_view bytes, std::string_view name) : lines_(bytes), name_(name) {}
+  TextReader(std::string_view bytes, std::string_view name)
+      : lines_(text_of(bytes, name)), name_(name) {}
 
   EmbeddingText read(int corners) {
     const std::size_t vertices = count("vertices"), elements = count("elements");

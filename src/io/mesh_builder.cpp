@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <utility>
 
 #include <mimicry/base/error.h>
+
+#include "io/polygon.h"
 
 namespace mimicry::io {
 
@@ -23,20 +24,83 @@ void MeshBuilder::reserve(std::size_t vertices, std::size_t faces) {
   faces_.reserve(std::min(faces, options_.max_faces));
 }
 
+void MeshBuilder::number_polygons() {
+  if (!polygons_.empty() || polygon_count_ != faces_.size()) return;
+  polygons_.resize(faces_.size());
+  std::iota(polygons_.begin(), polygons_.end(), 0);
+}
+
 void MeshBuilder::add_polygon(std::span<const Index> corners) {
-  assert(corners.size() >= 3);
-  const std::size_t triangles = corners.size() - 2;
+  if (corners.size() != 3) return add_large_polygon(corners);
+  if (faces_.size() >= options_.max_faces) fail_limit("triangles", options_.max_faces);
+  if (!polygons_.empty() || faces_.size() != polygon_count_)
+    polygons_.resize(faces_.size() + 1, static_cast<Index>(polygon_count_));
+  faces_.push_back({corners[0], corners[1], corners[2]});
+  ++polygon_count_;
+}
+
+void MeshBuilder::add_large_polygon(std::span<const Index> corners) {
+  kept_.clear();
+  for (const Index corner : corners)
+    if (kept_.empty() || corner != kept_.back()) kept_.push_back(corner);
+  while (kept_.size() > 1 && kept_.back() == kept_.front()) kept_.pop_back();
+  number_polygons();
+  const bool is_line = std::all_of(kept_.begin(), kept_.end(),
+                                   [&](Index c) { return c == kept_[0] || c == kept_[1]; });
+  if (is_line) {
+    ++without_area_;
+    ++polygon_count_;
+    return;
+  }
+  if (kept_.size() < corners.size()) ++with_repeats_;
+  const std::size_t triangles = kept_.size() - 2;
   if (triangles > options_.max_faces || faces_.size() > options_.max_faces - triangles)
     fail_limit("triangles", options_.max_faces);
-  if (triangles > 1 && polygons_.empty()) {
-    polygons_.resize(faces_.size());
-    std::iota(polygons_.begin(), polygons_.end(), 0);
-  }
-  for (std::size_t k = 1; k <= triangles; ++k)
-    faces_.push_back({corners[0], corners[k], corners[k + 1]});
-  if (faces_.size() > polygon_count_ + 1)
-    polygons_.resize(faces_.size(), static_cast<Index>(polygon_count_));
+  for (std::size_t k = 1; k <= triangles; ++k) faces_.push_back({kept_[0], kept_[k], kept_[k + 1]});
+  polygons_.resize(faces_.size(), static_cast<Index>(polygon_count_));
   ++polygon_count_;
+}
+
+// A fan's triangles still tell the polygon's corners; only here are all positions known.
+void MeshBuilder::cut_polygons() {
+  EarCutter cutter;
+  std::vector<Face> ears;
+  std::size_t crossing = 0;
+  for (std::size_t first = 0; first < polygons_.size();) {
+    std::size_t end = first + 1;
+    while (end < polygons_.size() && polygons_[end] == polygons_[first]) ++end;
+    if (end > first + 1) {
+      kept_.assign({faces_[first][0], faces_[first][1]});
+      bool whole = true;  // all vertices are there
+      for (std::size_t f = first; f < end; ++f) kept_.push_back(faces_[f][2]);
+      for (const Index v : kept_) whole = whole && static_cast<std::size_t>(v) < positions_.size();
+      if (whole && !fan_covers(kept_, positions_)) {
+        if (!cutter.cut(kept_, positions_, ears)) ++crossing;
+        std::copy(ears.begin(), ears.end(), faces_.begin() + static_cast<std::ptrdiff_t>(first));
+      }
+    }
+    first = end;
+  }
+  tell_of_polygons(crossing);
+}
+
+void MeshBuilder::tell_of_polygons(std::size_t crossing) const {
+  const auto tell = [&](std::size_t count, const char* one, const char* several) {
+    if (count > 0) note(std::to_string(count) + (count == 1 ? one : several));
+  };
+  tell(without_area_, " face has fewer than three different corners and is left out",
+       " faces have fewer than three different corners and are left out");
+  tell(with_repeats_, " polygon repeats a corner, which is taken once",
+       " polygons repeat corners, which are taken once");
+  tell(crossing, " polygon crosses itself; some of its triangles overlap",
+       " polygons cross themselves; some of their triangles overlap");
+}
+
+void MeshBuilder::clear() {
+  positions_.clear();
+  faces_.clear();
+  polygons_.clear();
+  polygon_count_ = without_area_ = with_repeats_ = 0;
 }
 
 void MeshBuilder::merge_identical_positions() {
@@ -76,6 +140,7 @@ void MeshBuilder::merge_identical_positions() {
 }
 
 TriangleMesh MeshBuilder::finish() {
+  cut_polygons();
   return TriangleMesh(std::exchange(positions_, {}), std::exchange(faces_, {}),
                       std::exchange(polygons_, {}));
 }

@@ -47,25 +47,26 @@ TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_vi
   if (bytes.empty())
     throw Error(ErrorKind::invalid_input,
                 std::string(name) + ": the file is empty; export it again");
+  const std::string_view text = format == MeshFormat::stl ? bytes : text_of(bytes, name);
   switch (format) {
     case MeshFormat::obj:
-      read_obj(bytes, mesh);
+      read_obj(text, mesh);
       break;
     case MeshFormat::ply:
-      read_ply(bytes, mesh);
+      read_ply(text, mesh);
       break;
     case MeshFormat::stl:
-      read_stl(bytes, mesh);
+      read_stl(text, mesh);
       break;
     case MeshFormat::off:
-      read_off(bytes, mesh);
+      read_off(text, mesh);
       break;
     case MeshFormat::glb:
     case MeshFormat::gltf:
-      read_gltf(bytes, mesh);
+      read_gltf(text, mesh);
       break;
   }
-  if (mesh.polygon_count() == 0)
+  if (mesh.face_count() == 0)
     throw Error(ErrorKind::invalid_input,
                 std::string(name) + ": holds no triangle or polygon (" +
                     std::to_string(mesh.vertex_count()) +

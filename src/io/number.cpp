@@ -23,6 +23,18 @@ bool equals_ignoring_case(std::string_view text, std::string_view lower) {
          });
 }
 
+// As C and C++ libraries write it, that of Windows' "nan(ind)" and "IND" included.
+std::optional<double> not_finite(std::string_view word) {
+  for (const char* inf : {"inf", "infinity"})
+    if (equals_ignoring_case(word, inf)) return std::numeric_limits<double>::infinity();
+  const bool has_payload = word.size() >= 5 && word[3] == '(' && word.back() == ')';
+  if (has_payload && equals_ignoring_case(word.substr(0, 3), "nan"))
+    return std::numeric_limits<double>::quiet_NaN();
+  for (const char* nan : {"nan", "qnan", "snan", "ind"})
+    if (equals_ignoring_case(word, nan)) return std::numeric_limits<double>::quiet_NaN();
+  return std::nullopt;
+}
+
 // More significant digits than this never change the nearest double, but for whether the rest is 0.
 constexpr std::size_t kMostDigits = 800;
 
@@ -90,14 +102,9 @@ std::optional<double> parse_double(std::string_view text) {
     }
   if (!any) {
     const std::string_view word = text.substr(static_cast<std::size_t>(start - text.data()));
-    double value;
-    if (equals_ignoring_case(word, "nan"))
-      value = std::numeric_limits<double>::quiet_NaN();
-    else if (equals_ignoring_case(word, "inf") || equals_ignoring_case(word, "infinity"))
-      value = std::numeric_limits<double>::infinity();
-    else
-      return std::nullopt;
-    return negative ? -value : value;
+    const auto value = not_finite(word);
+    if (value && negative) return -*value;
+    return value;
   }
   if (p != end && (*p == 'e' || *p == 'E')) {
     ++p;
@@ -109,7 +116,14 @@ std::optional<double> parse_double(std::string_view text) {
     for (; p != end && is_digit(*p); ++p) exponent = std::min(kFar, 10 * exponent + (*p - '0'));
     decimal.exponent += small ? -exponent : exponent;
   }
-  if (p != end) return std::nullopt;
+  if (p != end) {
+    // "1.#QNAN", "-1.#IND00", "1.#INF"
+    const std::string_view number = text.substr(static_cast<std::size_t>(start - text.data()));
+    if (*p != '#' || !number.starts_with("1.#")) return std::nullopt;
+    const auto value = not_finite(number.substr(3, number.find_last_not_of('0') - 2));
+    if (value && negative) return -*value;
+    return value;
+  }
   const double value = nearest_double(decimal);
   return negative ? -value : value;
 }

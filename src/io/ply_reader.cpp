@@ -1,6 +1,7 @@
-#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mimicry/base/error.h>
@@ -69,20 +70,29 @@ struct Header {
   std::string_view body;
 };
 
-Header read_header(std::string_view bytes, std::string_view name) {
+Header read_header(std::string_view bytes, MeshBuilder& mesh) {
+  const std::string_view name = mesh.name();
   Header header;
   Lines lines(bytes);
   std::string_view line;
   const auto fail = [&](const std::string& what) { fail_at_line(name, lines.line(), what); };
   if (!lines.next(line) || take_word(line) != "ply")
     fail("a PLY file begins with the line 'ply'; give a file of that format");
+  // Whether lines end in CR alone: then an LF behind the header is the body's.
+  const bool ends_in_cr = bytes.substr(0, bytes.find('\n')).find("\rformat") != bytes.npos;
   bool has_format = false;
+  std::size_t unknown = 0;
+  std::string first_unknown;
   while (true) {
     if (!lines.next(line)) fail("the header has no 'end_header'; the file is cut short");
+    const char* const line_end = line.data() + line.size();
     const std::string_view keyword = take_word(line);
     if (keyword == "end_header") {
       // A last line without its end cannot be told from one that is cut in the middle.
       if (!has_format) fail("the header has no 'format' line; export the file again");
+      header.body = lines.rest();
+      if (ends_in_cr && !header.body.empty())
+        header.body = bytes.substr(static_cast<std::size_t>(line_end - bytes.data()) + 1);
       break;
     }
     if (keyword == "format") {
@@ -123,11 +133,15 @@ Header read_header(std::string_view bytes, std::string_view name) {
       property.name = take_word(line);
       header.elements.back().properties.push_back(property);
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-      fail(in_quotes(keyword) + " is no statement of a PLY header; export the file again");
+      if (unknown++ == 0)
+        first_unknown = in_quotes(keyword) + " in line " + std::to_string(lines.line());
     }
   }
   header.lines = lines.line();
-  header.body = lines.rest();
+  if (unknown > 0)
+    mesh.note(std::to_string(unknown) +
+              (unknown == 1 ? " line of the header is" : " lines of the header are") +
+              " no statement of PLY and passed over (first: " + first_unknown + ")");
   return header;
 }
 
@@ -137,6 +151,7 @@ class TextSource {
       : words_(header.body, name, header.lines + 1) {}
   double number(Type) { return words_.number("a property"); }
   std::int64_t integer(Type) { return words_.integer("a list's count or item"); }
+  void skip(Type) { words_.skip("a property"); }
   std::uint64_t bytes_left() const { return words_.bytes_left(); }
   [[noreturn]] void fail(const std::string& what) const { words_.fail(what); }
   // A digit and a blank.
@@ -168,6 +183,7 @@ class BinarySource {
     }
   }
   std::int64_t integer(Type type) { return whole(type, take(type)); }
+  void skip(Type type) { take(type); }
   std::uint64_t bytes_left() const { return bytes_.size() - offset_; }
   [[noreturn]] void fail(const std::string& what) const { fail_at_byte(name_, offset_, what); }
   static std::uint64_t least_size(Type type) { return size_of(type); }
@@ -203,21 +219,22 @@ class BinarySource {
   std::string_view name_;
 };
 
-/// Reads one property of one element; list items go to `items`. Returns a scalar's value.
+/// The count of a list, which the file can hold.
 template <class Source>
-double read_property(Source& source, const Property& property, std::vector<std::int64_t>* items) {
-  if (!property.count_type) return source.number(property.type);
+std::int64_t list_size(Source& source, const Property& property) {
   const std::int64_t count = source.integer(*property.count_type);
   if (count < 0 || static_cast<std::uint64_t>(count) * source.least_size(property.type) >
                        source.bytes_left() + Source::kSlack)
     source.fail("a list of " + std::to_string(count) +
                 " items, more than the file holds; it is cut short or not what its header says");
-  for (std::int64_t k = 0; k < count; ++k)
-    if (items)
-      items->push_back(source.integer(property.type));
-    else
-      source.number(property.type);
-  return 0.0;
+  return count;
+}
+
+// What is passed over need not be numbers.
+template <class Source>
+void skip_property(Source& source, const Property& property) {
+  const std::int64_t count = property.count_type ? list_size(source, property) : 1;
+  for (std::int64_t k = 0; k < count; ++k) source.skip(property.type);
 }
 
 template <class Source>
@@ -242,45 +259,73 @@ void read_vertices(Source& source, const Element& element, MeshBuilder& mesh) {
   for (std::uint64_t v = 0; v < element.count; ++v) {
     Vec3 position;
     for (std::size_t k = 0; k < axes.size(); ++k) {
-      const double value = read_property(source, element.properties[k], nullptr);
-      if (axes[k] >= 0) position[axes[k]] = value;
+      if (axes[k] >= 0)
+        position[axes[k]] = source.number(element.properties[k].type);
+      else
+        skip_property(source, element.properties[k]);
     }
     mesh.add_vertex(position);
   }
 }
 
+/// The list of an element's that names vertices.
 template <class Source>
-void read_faces(Source& source, const Element& element, std::uint64_t vertex_count,
-                MeshBuilder& mesh) {
-  const auto is_corners = [](const Property& property) {
-    return property.count_type &&
-           (property.name == "vertex_indices" || property.name == "vertex_index");
-  };
-  const auto corners_at =
-      std::find_if(element.properties.begin(), element.properties.end(), is_corners);
-  if (corners_at == element.properties.end())
-    source.fail("the element 'face' needs a list 'vertex_indices'; export the file again");
-  if (!is_whole(corners_at->type))
-    source.fail("the list 'vertex_indices' is of no whole type; export the file again");
-  mesh.reserve(0, element.count);
-  std::vector<std::int64_t> items;
+const Property& list_of_corners(Source& source, const Element& element) {
+  for (const Property& property : element.properties) {
+    if (!property.count_type ||
+        (property.name != "vertex_indices" && property.name != "vertex_index"))
+      continue;
+    if (!is_whole(property.type))
+      source.fail("the list " + in_quotes(property.name) +
+                  " is of no whole type; export the file again");
+    return property;
+  }
+  source.fail("the element " + in_quotes(element.name) +
+              " needs a list 'vertex_indices'; export the file again");
+}
+
+/// Hands over the corners of each of an element's faces or strips.
+template <class Source, class Visit>
+void read_corners(Source& source, const Element& element, std::uint64_t vertex_count,
+                  bool has_restarts, const Visit& visit) {
+  if (element.count == 0) return;
+  const Property& list = list_of_corners(source, element);
   std::vector<Index> corners;
   for (std::uint64_t f = 0; f < element.count; ++f) {
-    items.clear();
-    for (const Property& property : element.properties)
-      read_property(source, property, &property == &*corners_at ? &items : nullptr);
-    if (items.size() < 3)
-      source.fail("face " + std::to_string(f) + " has " + std::to_string(items.size()) +
-                  " corners where three are needed; remove it");
     corners.clear();
-    for (const std::int64_t item : items) {
-      if (item < 0 || static_cast<std::uint64_t>(item) >= vertex_count)
-        source.fail("face " + std::to_string(f) + " refers to vertex " + std::to_string(item) +
-                    ", but the header promises " + std::to_string(vertex_count) +
-                    " vertices, counted from 0; correct the face");
-      corners.push_back(static_cast<Index>(item));
+    for (const Property& property : element.properties) {
+      if (&property != &list) {
+        skip_property(source, property);
+        continue;
+      }
+      const std::int64_t count = list_size(source, list);
+      for (std::int64_t k = 0; k < count; ++k) {
+        const std::int64_t item = source.integer(list.type);
+        if (has_restarts && item == -1) {
+          corners.push_back(kNone);
+          continue;
+        }
+        if (item < 0 || static_cast<std::uint64_t>(item) >= vertex_count)
+          source.fail((has_restarts ? "strip " : "face ") + std::to_string(f) +
+                      " refers to vertex " + std::to_string(item) + ", but the header promises " +
+                      std::to_string(vertex_count) + " vertices, counted from 0; correct the face");
+        corners.push_back(static_cast<Index>(item));
+      }
     }
-    mesh.add_polygon(corners);
+    visit(corners);
+  }
+}
+
+/// Every other triangle of a strip is turned; -1 begins another strip. Triangles that repeat a
+/// vertex only lead the strip on, and are left out.
+void add_strip(std::span<const Index> corners, MeshBuilder& mesh) {
+  std::size_t first = 0;  // of the strip
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    if (corners[k] == kNone) first = k + 1;
+    if (k < first + 2) continue;
+    Face face = {corners[k - 2], corners[k - 1], corners[k]};
+    if ((k - first) % 2 == 1) std::swap(face[0], face[1]);
+    if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) mesh.add_polygon(face);
   }
 }
 
@@ -288,7 +333,6 @@ template <class Source>
 void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
   std::uint64_t vertex_count = 0;
   bool seen_vertices = false;
-  bool seen_faces = false;
   for (const Element& element : header.elements) {
     if (element.name == "vertex") vertex_count = element.count;
     // No element is smaller than its scalars and list counts: a header that promises more than the
@@ -307,13 +351,15 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
       seen_vertices = true;
       read_vertices(source, element, mesh);
     } else if (element.name == "face") {
-      if (seen_faces) source.fail("two elements 'face'; export the file again");
-      seen_faces = true;
-      read_faces(source, element, vertex_count, mesh);
+      mesh.reserve(0, element.count);
+      read_corners(source, element, vertex_count, false,
+                   [&](std::span<const Index> corners) { mesh.add_polygon(corners); });
+    } else if (element.name == "tristrips") {
+      read_corners(source, element, vertex_count, true,
+                   [&](std::span<const Index> corners) { add_strip(corners, mesh); });
     } else if (!element.properties.empty()) {
       for (std::uint64_t n = 0; n < element.count; ++n)
-        for (const Property& property : element.properties)
-          read_property(source, property, nullptr);
+        for (const Property& property : element.properties) skip_property(source, property);
     }
   }
 }
@@ -321,7 +367,7 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
 }  // namespace
 
 void read_ply(std::string_view bytes, MeshBuilder& mesh) {
-  const Header header = read_header(bytes, mesh.name());
+  const Header header = read_header(bytes, mesh);
   if (header.encoding == Encoding::text) {
     TextSource source(header, mesh.name());
     read_body(source, header, mesh);

@@ -1,5 +1,4 @@
 #include <array>
-#include <string_view>
 #include <utility>
 
 #include <mimicry/io/stroke_splitter.h>
@@ -28,6 +27,7 @@ StrokeSplitter::StrokeSplitter(Source source) : source_(std::move(source)) {}
 
 bool StrokeSplitter::fill() {
   if (at_ < block_.size()) return true;
+  used_ += block_.size();
   block_.resize(kBlockBytes);
   block_.resize(source_(block_.data(), block_.size()));
   at_ = 0;
@@ -75,6 +75,7 @@ std::optional<std::string> StrokeSplitter::next() {
     }
   }
   std::string part = head_;
+  begin_ = used();
   depth = 0;
   bool is_empty = true;
   while (fill()) {
@@ -91,7 +92,7 @@ std::optional<std::string> StrokeSplitter::next() {
       if (depth == 0 && (c == ',' || c == ']')) {
         part.append(begin, p);
         at_ += static_cast<std::size_t>(p + 1 - begin);
-        done_ = c == ']';
+        done_ = closed_ = c == ']';
         if (!done_ || !is_empty) return part + "]}";
         return std::nullopt;
       }

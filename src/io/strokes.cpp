@@ -1,8 +1,11 @@
+#include <optional>
 #include <utility>
 
+#include <mimicry/io/stroke_splitter.h>
 #include <mimicry/io/strokes.h>
 
 #include "io/json.h"
+#include "io/text.h"
 
 namespace mimicry::io {
 namespace {
@@ -53,11 +56,9 @@ Intention read_intention(const Json& value, const std::string& where) {
   return intention;
 }
 
-// The rotation of a placement is checked before it is converted, which would hide its length.
-Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
-                   const std::string& where) {
-  Stroke stroke;
+void read_fields(const Json& value, Stroke& stroke, std::string where) {
   stroke.id = text(member(value, "id", where), where + ": id");
+  where += ": stroke '" + stroke.id + "'";
   stroke.target = text(member(value, "target", where), where + ": target");
   stroke.model_to_world =
       read_placement(member(value, "model_to_world", where), where + ": model_to_world");
@@ -65,11 +66,22 @@ Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
     stroke.intended = read_intention(value["intended"], where + ": intended");
   if (value.contains("simulated"))
     stroke.simulated = read_simulation(value["simulated"], where + ": simulated");
-  const Json& frames = member(value, "frames", where);
-  if (!frames.is_array()) json_fail(where, "'frames' is not an array");
+  const Json& frames = array(value, "frames", where);
   stroke.frames.reserve(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i)
     stroke.frames.push_back(read_frame(frames[i], where + ": frame " + std::to_string(i)));
+}
+
+// The rotation of a placement is checked before it is converted, which would hide its length.
+Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
+                   const std::string& where) {
+  Stroke stroke;
+  try {
+    read_fields(value, stroke, where);
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                std::string(error.what()) + "; correct it or record the stroke again");
+  }
   try {
     stroke::require_usable(stroke);
   } catch (const Error& error) {
@@ -139,16 +151,26 @@ OrderedJson to_json(const Intention& intention) {
   return {{"name", intention.name}, {"closed", intention.closed}, {"face", faces}, {"bary", bary}};
 }
 
-}  // namespace
+// What a text holds of a file: a header of `head` bytes, and what stands in the file at `begin`.
+struct StrokesPart {
+  std::string name;
+  std::size_t first = 0;  // number of the first stroke
+  std::size_t head = 0;
+  std::size_t begin = 0;
+};
 
-void read_strokes(std::string_view bytes, std::string_view name,
-                  const std::function<void(Stroke&&)>& visit, std::size_t first) {
+void read_part(std::string_view bytes, const StrokesPart& part,
+               const std::function<void(Stroke&&)>& visit) {
   StrokesHeader header;
-  header.name = name;
+  header.name = part.name;
   std::string key;
-  std::size_t count = first;
+  std::size_t count = part.first;
   std::size_t frames = 0;  // of the stroke that is being read
   bool has_strokes = false;
+  // Where a byte of the part stands in the file.
+  const auto place = [&](std::size_t byte) {
+    return byte > part.head ? byte - part.head + part.begin : byte;
+  };
   const auto event = [&](int depth, Json::parse_event_t kind, Json& value) {
     using Event = Json::parse_event_t;
     if (depth == 1 && kind == Event::key) key = value.get<std::string>();
@@ -169,12 +191,12 @@ void read_strokes(std::string_view bytes, std::string_view name,
     return true;
   };
   try {
-    const Json rest = parse_json(bytes, event);
+    const Json rest = parse_json(text_of(bytes, header.name), event);
   } catch (const Json::parse_error& error) {
     throw Error(ErrorKind::invalid_input,
                 header.name + ": stroke " + std::to_string(count) + ": frame " +
                     std::to_string(frames) + ": the text ends early or is not JSON at byte " +
-                    std::to_string(error.byte) + "; export the strokes again");
+                    std::to_string(place(error.byte)) + "; export the strokes again");
   } catch (const Json::exception& error) {
     throw Error(ErrorKind::invalid_input,
                 header.name + ": stroke " + std::to_string(count) + ": " + error.what());
@@ -184,10 +206,58 @@ void read_strokes(std::string_view bytes, std::string_view name,
                                               " file (there is no array 'strokes')");
 }
 
-std::vector<Stroke> read_strokes(std::string_view bytes, std::string_view name) {
-  std::vector<Stroke> strokes;
-  read_strokes(bytes, name, [&](Stroke&& stroke) { strokes.push_back(std::move(stroke)); });
-  return strokes;
+}  // namespace
+
+void read_strokes(std::string_view bytes, std::string_view name,
+                  const std::function<void(Stroke&&)>& visit, std::size_t first) {
+  read_part(bytes, {.name = std::string(name), .first = first}, visit);
+}
+
+StrokesFile read_strokes(std::string_view bytes, std::string_view name) {
+  StrokesFile file;
+  StrokesPart part{.name = std::string(name)};
+  const auto keep = [&](Stroke&& stroke) {
+    file.strokes.push_back(std::move(stroke));
+    file.numbers.push_back(part.first);
+  };
+  const std::string_view whole = text_of(bytes, name);
+  std::size_t at = 0;
+  StrokeSplitter splitter([&](char* buffer, std::size_t size) {
+    const std::size_t count = whole.copy(buffer, size, at);
+    at += count;
+    return count;
+  });
+  std::optional<std::string> text = splitter.next();
+  const std::string head(splitter.head());
+  if (head.empty()) {  // there is no array, or its key is written in another way
+    read_part(whole, part, [&](Stroke&& stroke) {
+      keep(std::move(stroke));
+      ++part.first;
+    });
+    return file;
+  }
+  // The file's own faults are told once, before any stroke is read.
+  read_part(head + "]}", part, keep);
+  const std::size_t mark = bytes.size() - whole.size();
+  part.head = head.size();
+  for (; text; text = splitter.next(), ++part.first) {
+    part.begin = mark + splitter.begin();
+    try {
+      read_part(*text, part, keep);
+    } catch (const Error& error) {
+      file.left_out.emplace_back(error.what());
+    }
+  }
+  if (splitter.closed()) try {
+      read_part(head + "]" + std::string(whole.substr(splitter.used())), part, keep);
+    } catch (const Error&) {
+      file.left_out.push_back(part.name +
+                              ": what follows the strokes is cut short or not JSON; export them "
+                              "again");
+    }
+  if (file.strokes.empty() && !file.left_out.empty())
+    throw Error(ErrorKind::invalid_input, file.left_out.front());
+  return file;
 }
 
 StrokeWriter::StrokeWriter(Sink sink, const CoordinateConvention& convention)

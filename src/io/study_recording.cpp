@@ -7,6 +7,7 @@
 #include <mimicry/io/study_recording.h>
 
 #include "io/json.h"
+#include "io/text.h"
 
 namespace mimicry::io {
 namespace {
@@ -157,6 +158,7 @@ OrderedJson piece_json(const RecordedPiece& piece) {
 
 std::vector<RecordedStroke> read_recording(std::string_view bytes, std::string_view name) {
   const std::string file(name);
+  bytes = text_of(bytes, name);
   std::vector<RecordedStroke> strokes;
   // The parser hands the strokes over one by one, so that only one is held as a tree.
   const auto event = [&](int depth, Json::parse_event_t kind, Json& value) {

@@ -14,6 +14,11 @@ namespace mimicry::io {
 /// Throws Error(invalid_input, "name: byte 84: what").
 [[noreturn]] void fail_at_byte(std::string_view name, std::size_t offset, const std::string& what);
 
+/// A text file's content without the byte order mark of UTF-8. Throws Error(unsupported) where it
+/// is UTF-16 or UTF-32, by its mark or, without one, since every second byte or three of four of
+/// its first characters are 0.
+std::string_view text_of(std::string_view bytes, std::string_view name);
+
 /// A word of a file made fit for a message: quoted, printable and short.
 std::string in_quotes(std::string_view word);
 
@@ -32,7 +37,7 @@ std::string one_line(std::string name);
 /// A text field of a CSV file, quoted where it has to be (RFC 4180).
 std::string csv_field(const std::string& value);
 
-/// Walks over the lines of a text and counts them from 1.
+/// Walks over the lines of a text and counts them from 1. Lines end in LF, CR LF or CR.
 class Lines {
  public:
   explicit Lines(std::string_view text, std::size_t first_line = 1)
@@ -46,6 +51,7 @@ class Lines {
  private:
   std::string_view rest_;
   std::size_t line_;
+  const char* line_feed_ = nullptr;  // the next one, or the text's end; older than rest_: not known
 };
 
 /// Walks over the words of a text, whatever the lines, for formats that are read word by word.
@@ -60,11 +66,21 @@ class Words {
   void skip_line();
   double number(const char* what);
   std::int64_t integer(const char* what);
+  /// Passes over a word, whatever it says.
+  void skip(const char* what);
   std::size_t line() const { return line_; }
   std::size_t bytes_left() const { return rest_.size(); }
   [[noreturn]] void fail(const std::string& what) const { fail_at_line(name_, line_, what); }
 
  private:
+  std::string_view required(const char* what);
+  static bool is_space(char c) { return is_blank(c) || c == '\n'; }
+  // A CR before an LF leaves the end to it.
+  bool ends_line(std::size_t at) const {
+    return rest_[at] == '\n' ||
+           (rest_[at] == '\r' && (at + 1 == rest_.size() || rest_[at + 1] != '\n'));
+  }
+
   std::string_view rest_;
   std::string_view name_;
   std::size_t line_;

@@ -353,6 +353,31 @@ TEST(CApi, FilesComeBack) {
   mimicry_similarity placed;
   ASSERT_EQ(mimicry_strokes_placement(read.get(), 0, &placed), MIMICRY_OK);
   EXPECT_EQ(std::memcmp(&placed, &kPlaced, sizeof placed), 0);
+  EXPECT_EQ(mimicry_strokes_left_out_count(read.get()), 0u);
+  EXPECT_EQ(mimicry_strokes_left_out(read.get(), 0), nullptr);
+}
+
+TEST(CApi, StrokeWithAFaultIsLeftOutOfAFile) {
+  const auto strokes = make<Strokes>(mimicry_strokes_create);
+  const auto frames = wave(3);
+  for (const char* id : {"s0", "s1"})
+    ASSERT_EQ(
+        mimicry_strokes_append(strokes.get(), id, "cube", &kPlaced, frames.data(), frames.size()),
+        MIMICRY_OK);
+  const auto bytes = make<Bytes>(mimicry_strokes_write, strokes.get());
+  std::string file = text(bytes);
+  file.replace(file.find("\"trigger\""), 9, "\"tr\"");
+  const auto read = make<Strokes>(mimicry_strokes_read, file.data(), file.size(), "s.json");
+  ASSERT_EQ(mimicry_strokes_count(read.get()), 1u);
+  EXPECT_STREQ(mimicry_strokes_id(read.get(), 0), "s1");
+  ASSERT_EQ(mimicry_strokes_left_out_count(read.get()), 1u);
+  EXPECT_THAT(mimicry_strokes_left_out(read.get(), 0), HasSubstr("s.json: stroke 0: stroke 's0'"));
+  EXPECT_THAT(mimicry_strokes_left_out(read.get(), 0), HasSubstr("frame 0: 'trigger' is missing"));
+  EXPECT_EQ(mimicry_strokes_left_out(read.get(), 1), nullptr);
+  file.replace(file.rfind("\"trigger\""), 9, "\"tr\"");
+  mimicry_strokes* none = nullptr;
+  EXPECT_EQ(mimicry_strokes_read(file.data(), file.size(), "s.json", &none), MIMICRY_INVALID_INPUT);
+  EXPECT_EQ(none, nullptr);
 }
 
 TEST(CApi, BakesAndDrawsWithIt) {

@@ -97,6 +97,34 @@ class Cases(unittest.TestCase):
         report = info("21-repeated-corners", "sphere_two_degenerate.obj")
         self.assertEqual((report["surface"]["faces"], report["closed"]), (2208, True))
 
+    def test_polygons_that_are_not_convex(self):
+        for name, faces, area in (("L.obj", 4, 3.0), ("concave_arrow.off", 2, 2.0),
+                                  ("concave_arrow.ply", 2, 2.0)):
+            report = info("07-concave-polygons", name)
+            self.assertEqual((report["faces"], report["area"]), (faces, area), name)
+        _, kinds, curves = self.curves(case("07-concave-polygons", "L.obj"),
+                                       case("07-concave-polygons", "L_stroke.json"), "-t", "snap")
+        self.assertNotIn("chord", kinds)
+        for found, right in zip(curves[0]["points"][0]["position"], (1.0, 1.8, 0.0)):
+            self.assertAlmostEqual(found, right, places=9)
+
+    def test_text_as_other_programs_write_it(self):
+        for name in ("bom.obj", "bom.off", "bom.ply", "bom.stl"):
+            report = info("08-byte-order-mark", name)
+            self.assertEqual((report["vertices"], report["faces"], report["area"]), (8, 12, 24.0))
+        self.assertEqual(info("08-byte-order-mark", "silent.obj")["area"], 1.0)
+        for name in ("broken_lines", "glued", "lower", "no_keyword", "one_line"):
+            report = info("16-off-dialects", name + ".off")
+            self.assertEqual((report["vertices"], report["faces"], report["area"]), (8, 12, 24.0))
+
+    def test_one_bad_frame(self):
+        strokes = case("20-one-bad-frame", "zero_quaternion.json")
+        done = run("project", "shape:torus", strokes, "-t", "snap", "--formats", "json",
+                   "-o", self.folder, expect=5)
+        self.assertRegex(done.stderr, "left out: zero_quaternion.json: stroke 1: .*frame 50: ")
+        with open(os.path.join(self.folder, "curves.json"), encoding="utf-8") as file:
+            self.assertEqual(len(json.load(file)["curves"]), 2)
+
     def test_two_sided_and_turned_faces(self):
         strokes = case("24-two-sided-and-mixed-orientation", "stroke.json")
         for name in ("sphere_half_turned", "sphere_both_sides", "sphere_two_sheets"):

@@ -243,6 +243,39 @@ class CommandLine(unittest.TestCase):
         blocked = self.write("file", "")
         fails(4, "project", "shape:sphere", self.path("s.json"), "--out", os.path.join(blocked, "x"))
 
+    def test_stroke_with_a_fault_is_left_out_and_named(self):
+        run("simulate", "shape:sphere", "--count", "3", "--out", self.path("s.json"))
+        with open(self.path("s.json"), encoding="utf-8") as file:
+            recorded = json.load(file)
+        self.assertGreater(len(recorded["strokes"]), 2)
+        bad = recorded["strokes"][1]
+        bad["frames"][50]["head"]["orientation"] = [0, 0, 0, 0]
+        faulty = self.write("f.json", json.dumps(recorded))
+        done = run("project", "shape:sphere", faulty, "-t", "snap", "--formats", "json",
+                   "--out", self.path("o"), expect=5)
+        self.assertIn("left out: f.json: stroke 1", done.stderr)
+        self.assertIn(bad["id"], done.stderr)
+        self.assertIn("frame 50", done.stderr)
+        self.assertIn("remove the frame or record it again", done.stderr)
+        with open(self.path("o", "curves.json"), encoding="utf-8") as file:
+            drawn = [curve["stroke"] for curve in json.load(file)["curves"]]
+        self.assertEqual(drawn, [s["id"] for s in recorded["strokes"] if s is not bad])
+        done = run("render", "shape:sphere", "--strokes", faulty, "--width", "60", "--height", "50",
+                   "--out", self.path("p.png"), expect=5)
+        self.assertIn("left out: f.json: stroke 1", done.stderr)
+        recorded["strokes"] = [bad]
+        run("project", "shape:sphere", self.write("f.json", json.dumps(recorded)), "-t", "snap",
+            "--out", self.path("none"), expect=3)
+        self.assertFalse(os.path.exists(self.path("none")), "nothing is left behind")
+
+    def test_distances_of_another_program(self):
+        rows = "\ufeffdistance,vertex\r" + "".join(f"{n / 10},{n}\r" for n in range(25))
+        run("render", "shape:grid:4", "--distances", self.write("d.csv", rows), "--width", "60",
+            "--height", "50", "--out", self.path("p.png"))
+        wrong = run("render", "shape:grid:4", "--distances", self.write("d.csv", "a,b\n1,2\n"),
+                    "--out", self.path("p.png"), expect=3)
+        self.assertIn("vertex,distance", wrong.stderr)
+
     def test_options_reach_the_technique(self):
         run("simulate", "shape:sphere", "--out", self.path("s.json"))
         run("project", "shape:sphere", self.path("s.json"), "-t", "spraycan", "--option",

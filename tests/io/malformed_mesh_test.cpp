@@ -34,7 +34,7 @@ std::vector<Malformed> samples() {
   add("ply text", MeshFormat::ply, true, true);
   add("ply binary", MeshFormat::ply, false, true);
   add("stl text", MeshFormat::stl, true, false);
-  add("stl binary", MeshFormat::stl, false, true);
+  add("stl binary", MeshFormat::stl, false, false);
   add("off", MeshFormat::off, true, true);
   add("glb", MeshFormat::glb, false, true);
   out.push_back({"gltf", MeshFormat::gltf,

@@ -35,4 +35,10 @@ inline TriangleMesh rough_grid(int side, unsigned seed, bool single) {
   return {std::move(positions), std::move(faces)};
 }
 
+inline double total_area(const TriangleMesh& mesh) {
+  double area = 0.0;
+  for (Index f = 0; f < mesh.face_count(); ++f) area += 0.5 * mesh.area_vector(f).norm();
+  return area;
+}
+
 }  // namespace mimicry::io

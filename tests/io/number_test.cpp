@@ -81,8 +81,9 @@ TEST(Number, TiesBeyondEightHundredDigitsAreDecidedByTheRest) {
 
 TEST(Number, RefusesWhatIsNoNumberFromEndToEnd) {
   for (const char* text :
-       {"",     "-",  "+",  ".",   "-.",  "e5",    "1e",   "1e+", "1x",      "x1",   "1,5",
-        "0x10", "1 ", " 1", "--1", "+-1", "1.2.3", "nanx", "in",  "infinit", "1e5.0"})
+       {"",   "-",       "+",     ".",   "-.",    "e5",     "1e",   "1e+",   "1x",
+        "x1", "1,5",     "0x10",  "1 ",  " 1",    "--1",    "+-1",  "1.2.3", "nanx",
+        "in", "infinit", "1e5.0", "1.#", "1.#00", "2.#INF", "1.#x", "nan(",  "1.0#INF"})
     EXPECT_FALSE(parse_double(text)) << text;
   for (const char* text : {"", "-", "+", "1.0", "1e3", "x", "9223372036854775808", "+-1", "1 "})
     EXPECT_FALSE(parse_integer(text)) << text;
@@ -101,6 +102,10 @@ TEST(Number, ReadsTheOddForms) {
   EXPECT_TRUE(std::isnan(*parse_double("-NaN")));
   EXPECT_EQ(*parse_double("-Infinity"), -std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::signbit(*parse_double("-0.000")));
+  for (const char* nan : {"-nan(ind)", "nan(0x8000)", "1.#QNAN", "-1.#IND00", "1.#SNAN"})
+    EXPECT_TRUE(std::isnan(parse_double(nan).value_or(0.0))) << nan;
+  EXPECT_EQ(*parse_double("1.#INF"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*parse_double("-1.#INF00"), -std::numeric_limits<double>::infinity());
   EXPECT_EQ(*parse_integer("+12"), 12);
   EXPECT_EQ(*parse_integer("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
 }

@@ -39,13 +39,13 @@ std::string file_of(int count) {
 
 TEST(StrokeSplitter, PartsReadAsTheWhole) {
   const std::string text = file_of(4);
-  const auto whole = read_strokes(text, "s.json");
+  const auto whole = read_strokes(text, "s.json").strokes;
   // Every size of block, so that each place falls on a border once.
   for (const std::size_t most : {1u, 7u, 1000000u}) {
     const auto parts = parts_of(text, most);
     ASSERT_EQ(parts.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto read = read_strokes(parts[i], "s.json");
+      const auto read = read_strokes(parts[i], "s.json").strokes;
       ASSERT_EQ(read.size(), 1u);
       EXPECT_EQ(read[0].id, whole[i].id);
       EXPECT_EQ(read[0].frames.size(), 3u);

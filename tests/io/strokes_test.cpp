@@ -1,4 +1,6 @@
+#include <fstream>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -35,9 +37,11 @@ Stroke sample_stroke(unsigned seed, int frames) {
   return stroke;
 }
 
+/// What is said of a file with a fault; "" where it has none.
 std::string error_of(const std::string& text) {
   try {
-    read_strokes(text, "s.json");
+    const StrokesFile file = read_strokes(text, "s.json");
+    if (!file.left_out.empty()) return file.left_out.front();
   } catch (const Error& error) {
     return error.what();
   }
@@ -50,7 +54,7 @@ TEST(Strokes, KeepTheMarkOfASimulation) {
   written[0].simulated = {"mimicry 0.1.0", 18446744073709551615u, "snap"};
   written[1].simulated = {"other 2", 0, ""};
   const std::string text = write_strokes(written);
-  const std::vector<Stroke> read = read_strokes(text, "s.json");
+  const std::vector<Stroke> read = read_strokes(text, "s.json").strokes;
   EXPECT_EQ(read[0].simulated->program, "mimicry 0.1.0");
   EXPECT_EQ(read[0].simulated->seed, 18446744073709551615u);
   EXPECT_EQ(read[0].simulated->technique, "snap");
@@ -59,13 +63,13 @@ TEST(Strokes, KeepTheMarkOfASimulation) {
   EXPECT_EQ(write_strokes(read), text);
   std::string broken = text;
   broken.replace(broken.find("\"seed\":0"), 8, "\"seed\":-1");
-  EXPECT_THAT(error_of(broken), HasSubstr("stroke 1: simulated: seed"));
+  EXPECT_THAT(error_of(broken), HasSubstr("simulated: seed"));
 }
 
 TEST(Strokes, ReadBackToTheSameBits) {
   const std::vector<Stroke> written = {sample_stroke(1, 40), sample_stroke(2, 0),
                                        sample_stroke(3, 1)};
-  const std::vector<Stroke> read = read_strokes(write_strokes(written), "s.json");
+  const std::vector<Stroke> read = read_strokes(write_strokes(written), "s.json").strokes;
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t s = 0; s < read.size(); ++s) {
     EXPECT_EQ(read[s].id, written[s].id);
@@ -94,7 +98,8 @@ TEST(Strokes, EveryConventionComesBack) {
   const Stroke written = sample_stroke(5, 10);
   for (const auto& convention : stroke::conventions()) {
     SCOPED_TRACE(std::string(convention.name));
-    const auto read = read_strokes(write_strokes(std::span(&written, 1), convention), "s.json");
+    const auto read =
+        read_strokes(write_strokes(std::span(&written, 1), convention), "s.json").strokes;
     ASSERT_EQ(read.size(), 1u);
     for (std::size_t i = 0; i < written.frames.size(); ++i) {
       // Centimetres round once each way.
@@ -143,6 +148,91 @@ TEST(Strokes, RefusalsNameFileStrokeAndFrame) {
   EXPECT_THAT(error_of(""), HasSubstr("ends early"));
 }
 
+TEST(Strokes, OneWithAFaultIsLeftOutAndNamedAndTheOthersAreRead) {
+  std::vector<Stroke> strokes = {sample_stroke(1, 3), sample_stroke(2, 3), sample_stroke(3, 3),
+                                 sample_stroke(4, 3)};
+  for (std::size_t i = 0; i < strokes.size(); ++i) strokes[i].id = "s" + std::to_string(i);
+  const std::string text = write_strokes(strokes);
+  const auto second = text.find("\"s1\"");
+  const auto third = text.find("\"s2\"");
+  // In the second frame of the second stroke.
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string t = text;
+    const auto at = t.find(from, t.find("\"time_s\":0.0111", second));
+    EXPECT_LT(at, third) << from;
+    return t.replace(at, from.size(), to);
+  };
+  struct Fault {
+    std::string text, said;
+  };
+  const Fault faults[] = {
+      {with("\"orientation\":[", "\"orientation\":[0,0,0,0],\"was\":["), "quaternion of length 0"},
+      {with("\"trigger\":0.75", "\"trigger\":null"), "trigger: is not a number"},
+      {with("\"trigger\":0.75", "\"trigger\":NaN"), "not JSON at byte"},
+      {with("\"position\":[", "\"position\":[1,"), "is not an array of 3"},
+      {with("\"time_s\"", "\"tame_s\""), "'time_s' is missing"},
+      {with("\"time_s\":0.0111", "\"time_s\":-0.0111"), "backwards"},
+  };
+  for (const Fault& fault : faults) {
+    const StrokesFile file = read_strokes(fault.text, "s.json");
+    ASSERT_EQ(file.strokes.size(), 3u) << fault.said;
+    EXPECT_EQ(file.strokes[0].id, "s0");
+    EXPECT_EQ(file.strokes[1].id, "s2");
+    EXPECT_EQ(file.strokes[2].id, "s3");
+    EXPECT_THAT(file.numbers, testing::ElementsAre(0u, 2u, 3u));
+    ASSERT_EQ(file.left_out.size(), 1u);
+    EXPECT_THAT(file.left_out[0], HasSubstr("s.json: stroke 1: "));
+    EXPECT_THAT(file.left_out[0], HasSubstr("frame 1"));
+    EXPECT_THAT(file.left_out[0], HasSubstr(fault.said));
+    EXPECT_THAT(file.left_out[0], HasSubstr("again")) << "the remedy";
+  }
+  // The byte is the file's.
+  const std::string not_json = with("\"trigger\":0.75", "\"trigger\":NaN");
+  const std::string said = read_strokes(not_json, "s.json").left_out.at(0);
+  const auto byte = std::stoul(said.substr(said.find("at byte ") + 8));
+  EXPECT_EQ(not_json.substr(byte - 1, 3), "NaN") << said;
+}
+
+TEST(Strokes, FileThatIsCutOffGivesTheStrokesBeforeTheCut) {
+  const std::vector<Stroke> strokes = {sample_stroke(1, 3), sample_stroke(2, 3)};
+  const std::string text = write_strokes(strokes);
+  const StrokesFile file = read_strokes(text.substr(0, text.size() - 100), "s.json");
+  EXPECT_EQ(file.strokes.size(), 1u);
+  ASSERT_EQ(file.left_out.size(), 1u);
+  EXPECT_THAT(file.left_out[0], HasSubstr("s.json: stroke 1: frame 2: the text ends early"));
+}
+
+TEST(Strokes, ByteOrderMarkIsPassedOverAndUtf16IsNamed) {
+  const Stroke written = sample_stroke(1, 2);
+  const std::string text = write_strokes(std::span(&written, 1));
+  EXPECT_EQ(read_strokes("\xEF\xBB\xBF" + text, "s.json").strokes.size(), 1u);
+  std::string wide;
+  for (const char c : text) wide.append(1, c).append(1, '\0');
+  EXPECT_THAT(error_of(wide), HasSubstr("s.json: is text in UTF-16"));
+  EXPECT_THAT(error_of("\xFF\xFE" + wide), HasSubstr("save it as UTF-8"));
+}
+
+TEST(Strokes, FaultOfTheFileIsToldOnce) {
+  const std::vector<Stroke> strokes = {sample_stroke(1, 1), sample_stroke(2, 1)};
+  std::string text = write_strokes(strokes);
+  text.replace(text.find("openxr"), 6, "maya");
+  EXPECT_THROW(read_strokes(text, "s.json"), Error);
+}
+
+// 50 frames into the second of three strokes an orientation is 0 0 0 0.
+TEST(Strokes, RecordedFileWithOneBadFrame) {
+  std::ifstream in(MIMICRY_CASES "/20-one-bad-frame/zero_quaternion.json", std::ios::binary);
+  if (!in) GTEST_SKIP() << "no cases in " MIMICRY_CASES;
+  std::stringstream text;
+  text << in.rdbuf();
+  const StrokesFile file = read_strokes(text.str(), "z.json");
+  EXPECT_EQ(file.strokes.size(), 2u);
+  EXPECT_THAT(file.numbers, testing::ElementsAre(0u, 2u));
+  ASSERT_EQ(file.left_out.size(), 1u);
+  EXPECT_THAT(file.left_out[0], HasSubstr("stroke 1"));
+  EXPECT_THAT(file.left_out[0], HasSubstr("frame 50"));
+}
+
 TEST(Strokes, NonUnitQuaternionIsRefused) {
   const Stroke written = sample_stroke(1, 1);
   std::string text = write_strokes(std::span(&written, 1));
@@ -158,7 +248,7 @@ TEST(Strokes, UnusableStrokeIsNotWritten) {
   StrokeWriter writer([&](std::string_view piece) { text += piece; });
   EXPECT_THROW(writer.write(bad), Error);
   writer.finish();
-  EXPECT_TRUE(read_strokes(text, "s.json").empty());
+  EXPECT_TRUE(read_strokes(text, "s.json").strokes.empty());
 }
 
 }  // namespace

@@ -84,8 +84,13 @@ export class Mimicry {
     return Target.create(this.m, mesh, name, options);
   }
 
-  /** The strokes of a mimicry-strokes file. */
-  readStrokes(bytes: Uint8Array, name: string): RecordedStroke[] { return readStrokes(this.m, bytes, name); }
+  /**
+   * The strokes of a mimicry-strokes file. One that cannot be used is left out, and onLeftOut is told where it stood and what is wrong
+   * with it; without onLeftOut it refuses the file.
+   */
+  readStrokes(bytes: Uint8Array, name: string, onLeftOut?: (what: string) => void): RecordedStroke[] {
+    return readStrokes(this.m, bytes, name, onLeftOut);
+  }
   writeStrokes(strokes: readonly RecordedStroke[]): Uint8Array<ArrayBuffer> { return writeStrokes(this.m, strokes); }
 
   /** The core's memory in use, bytes. */

@@ -12,9 +12,14 @@ export interface RecordedStroke {
   frames: Float64Array;
 }
 
-export function readStrokes(m: Module, bytes: Uint8Array, name: string): RecordedStroke[] {
+export function readStrokes(m: Module, bytes: Uint8Array, name: string, onLeftOut?: (what: string) => void): RecordedStroke[] {
   const strokes = made(m, (args, out) => m._mimicry_strokes_read(args.put(bytes), bytes.length, args.put(name), out));
   try {
+    for (let i = 0; i < m._mimicry_strokes_left_out_count(strokes); i += 1) {
+      const what = textAt(m, m._mimicry_strokes_left_out(strokes, i));
+      if (!onLeftOut) throw new Error(what);
+      onLeftOut(what);
+    }
     return Array.from({ length: m._mimicry_strokes_count(strokes) }, (_, i) =>
       calling(m, (args) => {
         const count = m._mimicry_strokes_frame_count(strokes, i);

@@ -139,6 +139,12 @@ test('queries', () => {
 test('strokes come back', () => {
   const stroke = { id: 'a', target: 'sphere', modelToWorld: here, frames: frames(5) };
   assert.deepEqual(mimicry.readStrokes(mimicry.writeStrokes([stroke]), 's.json'), [stroke]);
+  const file = new TextDecoder().decode(mimicry.writeStrokes([stroke, { ...stroke, id: 'b' }]));
+  const faulty = bytesOf(file.replace('"trigger"', '"tr"'));
+  const leftOut = [];
+  assert.deepEqual(mimicry.readStrokes(faulty, 's.json', (what) => leftOut.push(what)).map((s) => s.id), ['b']);
+  assert.match(leftOut.join(), /^s\.json: stroke 0: .*frame 0/);
+  assert.throws(() => mimicry.readStrokes(faulty, 's.json'), /frame 0/);
 });
 
 test('bakes, and draws with it', async () => {

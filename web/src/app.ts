@@ -306,7 +306,7 @@ export class App implements Actions {
       this.show(await this.modelOf(source));
       this.studio.restore(readDrawing(this.core, this.studio.target!, rest, file.name));
     } else if (/\.json$/i.test(file.name)) {
-      const strokes = this.core.readStrokes(bytes, file.name);
+      const strokes = this.core.readStrokes(bytes, file.name, (what) => this.ui.messages.note(`Left out: ${what}`));
       const drawn = this.studio.importStrokes(strokes);
       this.ui.messages.note(drawn === strokes.length ? `${plural(drawn, 'stroke')} drawn.` : `${drawn} of ${plural(strokes.length, 'stroke')} drawn; the others do not meet this model.`);
     } else {

@@ -29,8 +29,11 @@ struct MeshReadOptions {
 
 /// The mesh that a file's bytes hold. `name` stands in the error messages only.
 ///
-/// Faces count triangles: a polygon of n corners is cut into the n - 2 triangles (0, k, k + 1), in
-/// file order, and TriangleMesh::polygon() tells the source polygon's number.
+/// Faces count triangles: a polygon of n corners is cut into n - 2 triangles, in its place in the
+/// file's order, and TriangleMesh::polygon() tells the source polygon's number. Convex ones are cut
+/// into the fan (0, k, k + 1), others by ears (`io/polygon.h` beside the sources). Corners that
+/// repeat the one before are dropped from a polygon of four and more; a face of fewer than three
+/// different corners makes no triangle. A triangle is kept as it is.
 /// - OBJ, PLY (text, binary of either byte order), OFF (with colours, normals or texture
 ///   coordinates, which are passed over): vertices and faces in file order, unused vertices kept.
 /// - STL (text, binary): corners at the same position become one vertex, numbered in the order of
@@ -40,6 +43,8 @@ struct MeshReadOptions {
 ///   seams as often as the file has them; primitives of one mesh that name the same accessors share
 ///   them. Triangles of a strip that repeat a vertex are left out, they only join strips. The
 ///   name's ending does not tell GLB and glTF apart, the first bytes do.
+/// docs/formats.md has what other programs' files may differ in. Text in UTF-8, with or without
+/// its byte order mark.
 ///
 /// The content is not judged (`nan` and `inf` are read as such, degenerate faces are kept):
 /// validation reports it. Throws Error(invalid_input) with name, line or byte offset where the
@@ -47,7 +52,8 @@ struct MeshReadOptions {
 /// triangle; Error(io) where a file that it needs is not beside it; Error(unsupported) where it
 /// needs what is not handled (unknown extensions, decoders that this build lacks, more than the
 /// limits). Memory and time are O(size of the file), whatever its header claims; of glTF that uses
-/// meshes again and again O(triangles), within `max_unfolded`.
+/// meshes again and again O(triangles), within `max_unfolded`; of a polygon of n corners that is
+/// not convex O(n sqrt n).
 TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
                        const MeshReadOptions& options = {});
 

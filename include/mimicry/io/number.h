@@ -8,8 +8,9 @@
 namespace mimicry::io {
 
 /// The double nearest to a decimal text that is a number from its first to its last character:
-/// "-1.5e3", ".5", "1.", "+2", "nan", "-inf", "Infinity". Nothing where it is not. Too large a
-/// number is infinite. The locale plays no part. O(length).
+/// "-1.5e3", ".5", "1.", "+2", "nan", "-inf", "Infinity", and as programs on Windows write them:
+/// "-nan(ind)", "1.#QNAN", "-1.#INF". Nothing where it is not. Too large a number is infinite. The
+/// locale plays no part. O(length).
 std::optional<double> parse_double(std::string_view text);
 
 /// The whole number that the text holds ("-12", "+3"); nothing where it is not one or does not fit.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace mimicry::io {
 
@@ -20,6 +21,15 @@ class StrokeSplitter {
   /// without strokes gives itself once. O(bytes).
   std::optional<std::string> next();
 
+  /// What stands before the strokes, up to and with the bracket that opens their array; empty
+  /// before the first call of `next`, and where there is no such array.
+  std::string_view head() const { return in_array_ ? std::string_view(head_) : std::string_view(); }
+  /// Where the last part's own text begins in the file.
+  std::size_t begin() const { return begin_; }
+  /// How many bytes have been used; whether the last one closes the array.
+  std::size_t used() const { return used_ + at_; }
+  bool closed() const { return closed_; }
+
  private:
   bool fill();
   int get();
@@ -27,8 +37,10 @@ class StrokeSplitter {
   Source source_;
   std::string block_;
   std::size_t at_ = 0;
+  std::size_t used_ = 0;  // of the blocks before
+  std::size_t begin_ = 0;
   std::string head_;  // up to and with the bracket that opens the array
-  bool in_array_ = false, done_ = false;
+  bool in_array_ = false, closed_ = false, done_ = false;
 };
 
 }  // namespace mimicry::io

@@ -21,7 +21,19 @@ inline constexpr int kStrokesVersion = 1;
 /// fault have been handed over by then. `first`: the number of the first stroke, for messages.
 void read_strokes(std::string_view bytes, std::string_view name,
                   const std::function<void(stroke::Stroke&&)>& visit, std::size_t first = 0);
-std::vector<stroke::Stroke> read_strokes(std::string_view bytes, std::string_view name);
+
+/// A file's sound strokes, and what was left out of it.
+struct StrokesFile {
+  std::vector<stroke::Stroke> strokes;
+  std::vector<std::size_t> numbers;   ///< of each of these in the file, from 0
+  std::vector<std::string> left_out;  ///< a sentence each: file, stroke, frame, fault and remedy
+};
+
+/// The same, but a stroke with a fault does not refuse the others: it is left out as a whole, since
+/// a stroke that lacks a frame would be another one. Throws where the fault is the file's (format,
+/// version, convention, not JSON before the first stroke), or no stroke is sound and some were left
+/// out. O(bytes).
+StrokesFile read_strokes(std::string_view bytes, std::string_view name);
 
 /// Writes a `mimicry-strokes` file piece by piece into `sink`, in the convention asked for. The
 /// text is whole after `finish`. Numbers read back to the same bits.

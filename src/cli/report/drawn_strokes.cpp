@@ -1,5 +1,6 @@
 #include "cli/report/drawn_strokes.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -80,9 +81,10 @@ const stroke::Stroke& DrawnStrokes::stroke_of_file(const StudyRow& row) {
   if (found == files_.end())
     found = files_.emplace(path, io::read_strokes(files::read_file(path), path)).first;
   const std::size_t index = number_of(row.index, "index");
-  if (index >= found->second.size())
-    refuse_row(path + ": has only " + std::to_string(found->second.size()) + " strokes");
-  return found->second[index];
+  const io::StrokesFile& file = found->second;
+  const auto at = std::find(file.numbers.begin(), file.numbers.end(), index);
+  if (at == file.numbers.end()) refuse_row(path + ": has no sound stroke " + std::to_string(index));
+  return file.strokes[static_cast<std::size_t>(at - file.numbers.begin())];
 }
 
 std::vector<Vec3> DrawnStrokes::target_curve(const StudyRow& row, const TriangleMesh& mesh) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <mimicry/curve/projected_curve.h>
+#include <mimicry/io/strokes.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/spatial/target.h>
 #include <mimicry/study/recording.h>
@@ -62,7 +63,7 @@ class DrawnStrokes {
   std::optional<study::TargetSet> targets_;
   std::map<std::string, Shape> shapes_;
   std::map<std::string, std::vector<study::RecordedStroke>> recordings_;
-  std::map<std::string, std::vector<stroke::Stroke>> files_;
+  std::map<std::string, io::StrokesFile> files_;
 };
 
 }  // namespace mimicry::cli

@@ -1,0 +1,26 @@
+#include "cli/strokes_input.h"
+
+#include <filesystem>
+#include <utility>
+
+#include <mimicry/files/file.h>
+#include <mimicry/io/strokes.h>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+
+namespace mimicry::cli {
+
+void tell_left_out(const std::string& what, int& status) {
+  complain("left out: " + what);
+  status = kPartly;
+}
+
+std::vector<stroke::Stroke> load_strokes(const std::string& path, int& status) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  io::StrokesFile file = io::read_strokes(files::read_file(path), name);
+  for (const std::string& what : file.left_out) tell_left_out(what, status);
+  return std::move(file.strokes);
+}
+
+}  // namespace mimicry::cli
