@@ -143,6 +143,7 @@ class Serve(Case):
         mesh = slow_mesh(self.work)
         for number in [signal.SIGINT, signal.SIGTERM]:
             server = Served(self.work)
+            self.addCleanup(server.stop, signal.SIGKILL)
             idle = [server.socket() for _ in range(20)]
             for half in idle[:10]:
                 half.sendall(b"GET / HT")
@@ -164,6 +165,7 @@ class Serve(Case):
     def test_a_bake_does_not_outlive_a_server_that_is_killed(self):
         mesh = slow_mesh(self.work)
         server = Served(self.work)
+        self.addCleanup(server.stop, signal.SIGKILL)
         with server.socket() as baking:
             baking.sendall(post("/api/bake?name=torus.obj", mesh))
             server.wait_for_bake()

@@ -62,9 +62,13 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
   it('stands in no frame of another page', async () => {
     const context = await lab.browser.newContext();
     const page = await context.newPage();
-    await page.route('http://elsewhere.example/', (route) => route.fulfill({ contentType: 'text/html', body: `<iframe src="${url}"></iframe>` }));
-    const refused = page.waitForEvent('console', (message) => message.text().includes('frame-ancestors'));
-    await page.goto('http://elsewhere.example/');
+    await page.goto(lab.served.url); // another port: another origin
+    const refused = page.waitForEvent('console', (message) => message.text().includes("frame-ancestors 'none'"));
+    await page.evaluate((src) => {
+      const frame = document.createElement('iframe');
+      frame.src = src;
+      document.body.append(frame);
+    }, url);
     await refused;
     await context.close();
   });
