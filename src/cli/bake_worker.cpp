@@ -85,7 +85,10 @@ embedding::Embedding baked(const WorkerArguments& args, const BakeCache& kept, b
   const TriangleMesh mesh =
       io::read_mesh(mesh_bytes(), io::mesh_format_of(args.name), args.name, limits);
   const bake::BakeOptions options;
-  if (auto found = kept.find(mesh, options)) return *std::move(found);
+  try {
+    if (auto found = kept.find(mesh, options)) return *std::move(found);
+  } catch (const Error&) {  // `keep_or_throw` will say the same
+  }
   is_new = true;
   return bake::bake(mesh, options, args.threads, [](const Progress& progress) {
     tell({{"stage", progress.stage}, {"fraction", progress.fraction}});
