@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 2'000'000'000;
 constexpr const char* kEnding = ".mimicry";
 
 // Also of what is written beside and was left by a program that was killed.
@@ -58,7 +57,7 @@ void touch(const fs::path& file) {
   fs::last_write_time(file, fs::file_time_type::clock::now(), none);
 }
 
-void shrink(const fs::path& folder) {
+void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
   struct Kept {
     fs::file_time_type used;
     std::uintmax_t bytes;
@@ -81,7 +80,7 @@ void shrink(const fs::path& folder) {
     return std::tie(a.used, a.path) < std::tie(b.used, b.path);
   });
   for (const Kept& file : files) {
-    if (total <= kMostBytes) break;
+    if (total <= most_bytes) break;
     std::error_code none;
     fs::remove(file.path, none);
     total -= file.bytes;
@@ -123,16 +122,20 @@ std::optional<embedding::Embedding> BakeCache::find(const TriangleMesh& mesh,
 }
 
 void BakeCache::keep(const embedding::Embedding& e) const {
-  if (folder_.empty()) return;
   try {
-    std::error_code trouble;
-    fs::create_directories(folder_, trouble);
-    const fs::path path = fs::path(folder_) / file_name(e.mesh_hash, e.options);
-    files::write_file_atomically(path.string(), io::write_embedding(e));
-    shrink(folder_);
+    keep_or_throw(e);
   } catch (const Error& error) {
     complain("the bake is not kept for the next time: " + std::string(error.what()));
   }
+}
+
+void BakeCache::keep_or_throw(const embedding::Embedding& e) const {
+  if (folder_.empty()) return;
+  std::error_code trouble;
+  fs::create_directories(folder_, trouble);
+  const fs::path path = fs::path(folder_) / file_name(e.mesh_hash, e.options);
+  files::write_file_atomically(path.string(), io::write_embedding(e));
+  shrink(folder_, most_bytes_);
 }
 
 }  // namespace mimicry::cli

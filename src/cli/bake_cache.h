@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/mesh/triangle_mesh.h>
@@ -20,16 +22,21 @@ class BakeCache {
   static BakeCache of_user();
   /// Keeps nothing and finds nothing.
   BakeCache() = default;
+  explicit BakeCache(std::string folder, std::uintmax_t most_bytes = 2'000'000'000)
+      : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
   /// Throws Error(io) where something that is no folder or no plain file stands at its place.
   std::optional<embedding::Embedding> find(const TriangleMesh& mesh,
                                            const embedding::BakeOptions& options) const;
-  /// Then the files used longest ago are removed until the folder holds at most 2 GB.
+  /// Then the files used longest ago are removed until the folder holds no more than it may (2 GB).
+  /// A bake that cannot be kept is told of on the standard error stream.
   void keep(const embedding::Embedding& embedding) const;
+  /// The same, but throws Error(io).
+  void keep_or_throw(const embedding::Embedding& embedding) const;
 
  private:
-  explicit BakeCache(std::string folder) : folder_(std::move(folder)) {}
   std::string folder_;  // empty: none
+  std::uintmax_t most_bytes_ = 0;
 };
 
 }  // namespace mimicry::cli

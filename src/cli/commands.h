@@ -21,6 +21,7 @@ enum ExitCode : int {
 // Each adds one subcommand, which runs when the command line has been parsed. `status` is what the
 // program will return.
 void add_bake(CLI::App& app, int& status);
+void add_bake_worker(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_geodesic(CLI::App& app, int& status);
 void add_import_embedding(CLI::App& app, int& status);

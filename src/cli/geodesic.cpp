@@ -16,6 +16,7 @@
 #include <mimicry/io/number.h>
 
 #include "cli/commands.h"
+#include "cli/console.h"
 #include "cli/mesh_input.h"
 
 namespace mimicry::cli {

@@ -72,6 +72,7 @@ int main(int argc, char** argv) {
   add_measure(app, status);
   add_targets(app, status);
   add_serve(app, status);
+  add_bake_worker(app, status);
   add_participants(app, status);
   add_replay(app, status);
   try {

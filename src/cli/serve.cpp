@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -63,6 +64,12 @@ void print_addresses(const serve::Server& server, const serve::ServeOptions& opt
   std::fflush(stdout);
 }
 
+std::uint64_t half_the_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || size <= 0) return std::uint64_t{4} << 30;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size) / 2;
+}
+
 void run_serve(const serve::ServeOptions& options) {
   // Threads inherit the mask: the signals come to the one that waits for them.
   sigset_t signals;
@@ -107,6 +114,8 @@ void add_serve(CLI::App& app, int&) {
       ->capture_default_str();
   command->add_option("--data", options->data_folder, "Folder for bakes and the certificate")
       ->capture_default_str();
+  command->add_option("--name", options->names,
+                      "Another name that the server answers to, such as studio.example");
   auto megabytes = std::make_shared<double>(256.0);
   command->add_option("--largest-upload-mb", *megabytes, "Models beyond it are not baked")
       ->check(number_between(0.001, 65536))
@@ -114,8 +123,22 @@ void add_serve(CLI::App& app, int&) {
   command->add_option("--longest-bake-s", options->longest_bake_s, "Then it is given up")
       ->check(number_between(0.001, 1e6))
       ->capture_default_str();
-  command->callback([options, megabytes] {
+  command->add_option("--most-faces", options->most_faces, "Models beyond it are not baked")
+      ->check(CLI::Range(1, 200'000'000))
+      ->capture_default_str();
+  auto memory =
+      std::make_shared<double>(std::max(1024.0, static_cast<double>(half_the_memory() >> 20)));
+  command
+      ->add_option("--bake-memory-mb", *memory,
+                   "A bake that needs more is given up (default: half of the machine's)")
+      ->check(number_between(64, 1 << 24));
+  options->bake_command = {"/proc/self/exe", "bake-worker"};
+  options->note = [](const std::string& sentence) {
+    std::fprintf(stderr, "mimicry: %s\n", sentence.c_str());
+  };
+  command->callback([options, megabytes, memory] {
     options->largest_upload = static_cast<std::size_t>(*megabytes * (1 << 20));
+    options->bake_memory = static_cast<std::uint64_t>(*memory * (1 << 20));
     run_serve(*options);
   });
 }

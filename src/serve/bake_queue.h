@@ -1,59 +1,49 @@
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <boost/asio/io_context.hpp>
+
+#include <mimicry/serve/server.h>
+
+#include "serve/bake_process.h"
+#include "serve/message.h"
 
 namespace mimicry::serve {
 
-/// One bake runs and one waits. A place is taken before a request's body is read.
+/// One bake runs, others wait for their turn in the order in which their meshes arrived whole. One
+/// whose client leaves is given up.
 class BakeQueue {
  public:
-  class Place {
-   public:
-    explicit Place(BakeQueue& queue) : queue_(queue), taken_(queue.enter()) {}
-    ~Place() {
-      if (taken_) queue_.leave(running_);
-    }
-    Place(const Place&) = delete;
-    Place& operator=(const Place&) = delete;
-    explicit operator bool() const { return taken_; }
-    /// Returns when it is this one's turn.
-    void wait() {
-      queue_.wait();
-      running_ = true;
-    }
+  BakeQueue(boost::asio::io_context& io, const ServeOptions& options, HeldBytes held)
+      : io_(io), options_(options), held_(std::move(held)) {}
 
-   private:
-    BakeQueue& queue_;
-    bool taken_;
-    bool running_ = false;
-  };
+  /// Why a bake of this client is not taken now.
+  std::optional<Response> refusal_for(const std::string& client) const;
+  void add(std::shared_ptr<Exchange> exchange);
+  /// Gives up all, answers them and takes no more.
+  void stop();
+
+  /// JSON members for the server's status: of the bake that runs, and how many wait.
+  std::string stage() const;
+  double fraction() const;
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
-  static constexpr int kMost = 2;
+  void start_next();
+  void leave(const Exchange* exchange);
 
-  bool enter() {
-    const std::lock_guard lock(mutex_);
-    if (inside_ == kMost) return false;
-    ++inside_;
-    return true;
-  }
-  void wait() {
-    std::unique_lock lock(mutex_);
-    turn_.wait(lock, [&] { return !busy_; });
-    busy_ = true;
-  }
-  void leave(bool running) {
-    const std::lock_guard lock(mutex_);
-    --inside_;
-    if (running) busy_ = false;
-    turn_.notify_one();
-  }
-
-  std::mutex mutex_;
-  std::condition_variable turn_;
-  int inside_ = 0;
-  bool busy_ = false;
+  boost::asio::io_context& io_;
+  const ServeOptions& options_;
+  HeldBytes held_;
+  std::deque<std::shared_ptr<Exchange>> waiting_;
+  std::shared_ptr<Exchange> current_;
+  std::shared_ptr<BakeProcess> process_;
+  bool stopped_ = false;
 };
 
 }  // namespace mimicry::serve

@@ -37,7 +37,7 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
   const files = h('button', { class: 'button', type: 'button', popovertarget: 'files', 'aria-label': 'Save, export and more', title: 'Save, export and more' }, icon(kIcons.menu));
 
   const top = h('header', { id: 'top' },
-    h('div', { class: 'panel brand' }, h('h1', { class: 'mark', style: 'margin:0' }, h('img', { src: 'icon.svg', alt: '', width: 24, height: 24 }), h('span', {}, 'mimicry')), h('i', { class: 'divider only-wide' }), model),
+    h('div', { class: 'panel brand' }, h('h1', { class: 'mark' }, h('img', { src: 'icon.svg', alt: '', width: 24, height: 24 }), h('span', {}, 'mimicry')), h('i', { class: 'divider only-wide' }), model),
     h('div', { class: 'panel', role: 'toolbar', 'aria-label': 'Drawing and view' }, undo, redo, h('i', { class: 'divider only-wide' }), compare, frame, vr, ar,
       button(kIcons.help, 'Help', '?', () => help.showModal(), 'only-wide'), files));
 

@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { torusObj } from './meshes';
-import { Lab, messages, stroke, summary } from './studio_page';
+import { Lab, downloaded, messages, stroke, summary } from './studio_page';
 
 const kNative = process.env['MIMICRY_PROGRAM'] ?? resolve('../build/release/bin/mimicry');
 
@@ -35,6 +35,10 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
   it('draws, and has a dropped model prepared by the server', async () => {
     const context = await lab.browser.newContext({ viewport: { width: 640, height: 480 } });
     const page = await context.newPage();
+    // What the server's Content-Security-Policy forbids is an error in the console.
+    const errors: string[] = [];
+    page.on('pageerror', (error) => errors.push(String(error)));
+    page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
     await page.goto(`${url}?antialias=off&motion=off`);
     await page.waitForSelector('html[data-ready]');
     await page.setInputFiles('input[type=file]', { name: 'ring.obj', mimeType: '', buffer: Buffer.from(torusObj(10)) });
@@ -45,6 +49,27 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
     await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
     await stroke(page, [[390, 190], [400, 220], [395, 250]]);
     expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry']);
+    // Files that the page offers, a model baked in the page, and a reload with what is kept.
+    expect((await downloaded(page, () => page.keyboard.press('Control+s'))).bytes.length).toBeGreaterThan(1000);
+    await page.evaluate(() => { window.studio.openShape('sphere'); window.studio.bake(); });
+    await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding, null, { timeout: 60000 });
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+
+  it('stands in no frame of another page', async () => {
+    const context = await lab.browser.newContext();
+    const page = await context.newPage();
+    await page.goto(lab.served.url); // another port: another origin
+    const refused = page.waitForEvent('console', (message) => message.text().includes("frame-ancestors 'none'"));
+    await page.evaluate((src) => {
+      const frame = document.createElement('iframe');
+      frame.src = src;
+      document.body.append(frame);
+    }, url);
+    await refused;
     await context.close();
   });
 });
