@@ -29,9 +29,10 @@ inline constexpr int kRevision = 4;
 /// Error(cancelled) when `progress` returns false.
 ///
 /// Stages reported, in this order: shell, (lattice,) samples, distances, mds, ls-mesh, done. The
-/// same bits whatever the number of threads. About 0.2 ms a vertex of the mesh and 20 kB; of any
-/// mesh, at the usual offset or a larger one, at most 20 s and 0.5 ms a face on two threads and 300
-/// MB and 10 kB a face: counts, not clocks, end what would grow beyond (docs/quality-of-bakes.md).
+/// same bits whatever the number of threads. About 0.2 ms a vertex of the mesh and 20 kB; of
+/// messy meshes, at the usual offset or a larger one, about 20 s and 0.5 ms a face on two threads
+/// and 300 MB and 10 kB a face at the most: counts, not clocks, end what would grow beyond
+/// (docs/quality-of-bakes.md has what was measured).
 Embedding bake(const TriangleMesh& mesh, const BakeOptions& options = {}, int threads = 1,
                const ProgressCallback& progress = {});
 
