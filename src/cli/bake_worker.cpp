@@ -82,7 +82,6 @@ embedding::Embedding baked(const WorkerArguments& args, const BakeCache& kept, b
   tell({{"stage", "reading"}, {"fraction", 0.0}});
   io::MeshReadOptions limits;
   limits.max_faces = args.faces;
-  limits.max_vertices = 3 * args.faces;
   // Kept bakes are found by the surface.
   const TriangleMesh mesh =
       connect(io::read_mesh(mesh_bytes(), io::mesh_format_of(args.name), args.name, limits)).mesh;

@@ -103,7 +103,7 @@ class ServeBake(Case):
         with Served(self.work, "--most-faces", "10") as server:
             status, sentence = server.refused("/api/bake?name=a.obj", mesh)
             self.assertEqual(status, 422)
-            self.assertIn("10 ", sentence)
+            self.assertIn("more than 10 triangles", sentence)
 
     @unittest.skipUnless((CASES / "31-instancing-bomb").is_dir(), "no cases here")
     def test_instances_that_multiply(self):
@@ -112,7 +112,8 @@ class ServeBake(Case):
             began = time.monotonic()
             status, sentence = server.refused("/api/bake?name=amp_mid.gltf", bomb)
             self.assertEqual(status, 422)
-            self.assertIn("2000000", sentence.replace(",", ""))
+            self.assertRegex(sentence, r"196000000 triangles|more than 2000000 triangles")
+            self.assertIn("limit", sentence)
             self.assertLess(time.monotonic() - began, 60)
             self.assertLess(server.memory_mb(), 1000)
             self.assert_alive(server)
