@@ -49,7 +49,7 @@ struct Grading {
 /// than `side` times the local size of the triangles, plus slope times the distance beyond it.
 /// local_size: #V, unit mesh. nullopt where there would be more than most_cells.
 std::optional<Octree> make_octree(const Surface& surface, const std::vector<double>& local_size,
-                   const Grading& grading, double half_side, Executor& executor);
+                                  const Grading& grading, double half_side, Executor& executor);
 
 /// The corners and, where `centres`, the centres of the cells, each once. They are points of the
 /// Delaunay grid: where several lie on one sphere the ties are exact, and no slivers come of

@@ -76,9 +76,9 @@ class DiscreteExponentialMap {
   std::uint32_t stamp_ = 0;
   std::vector<State> states_;
   std::vector<double> keys_;
-  std::vector<Index> from_;   // the vertex that it was reached from, kNone: the centre
+  std::vector<Index> from_;     // the vertex that it was reached from, kNone: the centre
   std::vector<double> bounds_;  // of the length, by the edges from settled neighbours
-  std::vector<Vec3> x_axes_;  // the centre's x axis, carried to the vertex
+  std::vector<Vec3> x_axes_;    // the centre's x axis, carried to the vertex
   std::vector<Vec2> places_;
 };
 
