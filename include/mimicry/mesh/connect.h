@@ -51,10 +51,12 @@ struct Connected {
 /// vertices and corners where they are not. A mesh that is such a surface comes back as it is.
 ///
 /// - Vertices that no face uses are left out.
-/// - A face with two corners at one place, and the faces of a polygon that lies where an earlier one
-///   does (same corners, either side), are left out: they keep their number, with all corners at one
-///   vertex. Doubles that wall off a part from another (two closed boxes that touch) stay.
-/// - Faces that run against their neighbours are turned: to the side that encloses a positive volume
+/// - A face with two corners at one place, and the faces of a polygon that lies where an earlier
+/// one
+///   does (same corners, either side), are left out: they keep their number, with all corners at
+///   one vertex. Doubles that wall off a part from another (two closed boxes that touch) stay.
+/// - Faces that run against their neighbours are turned: to the side that encloses a positive
+/// volume
 ///   where the part is closed, else to that of most faces; in a one-sided part where it mends more
 ///   edges than it leaves.
 /// - Half-edges that share both vertices and run against each other are neighbours. The rest is
