@@ -135,7 +135,8 @@ std::vector<double> ways_along_edges(const TriangleMesh& mesh, const HalfEdges& 
   };
   for (const Index v : mesh.face(p.face)) offer(v, (mesh.position(v) - mesh.position(p)).norm());
   while (!queue.empty()) {
-    const auto [length, v] = queue.top();
+    const double length = queue.top().first;
+    const Index v = queue.top().second;
     queue.pop();
     if (length > way[static_cast<std::size_t>(v)]) continue;
     const auto step = [&](Index u) {

@@ -16,7 +16,7 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string html;
-  for (const char c : text) switch (c) {
+  for (const char c : printable(text)) switch (c) {
       case '&':
         html += "&amp;";
         break;
