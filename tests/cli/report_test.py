@@ -345,7 +345,7 @@ class Report(unittest.TestCase):
                           file=file)
             print("strokes.json,none,spraycan,cube,3,1,99", file=file)
         _, page = self.report("--gallery", "1")
-        self.assertRegex(page, "spraycan, strokes.json, none, cube: .* has only 3 strokes")
+        self.assertRegex(page, "spraycan, strokes.json, none, cube: .* has no sound stroke 3")
         images = [base64.b64decode(i) for i in re.findall('src="data:image/png;base64,([^"]*)"', page)]
         captions = re.findall("<figcaption>.*?</figcaption>", page)
         self.assertEqual([re.sub("<[^>]*>", "", c) for c in captions],
