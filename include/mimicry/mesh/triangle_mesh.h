@@ -28,9 +28,9 @@ class TriangleMesh {
 
   /// positions: #V by 3, any unit. faces: #F by 3, 0-based, counter-clockwise seen from outside.
   /// polygons: empty, or #F numbers that do not decrease: the source polygon of each triangle
-  /// (files may hold polygons; they are cut into fans in file order). Throws Error(invalid_input)
-  /// where a face refers to a vertex that does not exist, or `polygons` has another length than
-  /// `faces`. O(#V + #F).
+  /// (files may hold polygons; they are cut into triangles in file order). Throws
+  /// Error(invalid_input) where a face refers to a vertex that does not exist, or `polygons` has
+  /// another length than `faces`. O(#V + #F).
   TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
                std::vector<Index> polygons = {});
 
