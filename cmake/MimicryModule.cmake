@@ -53,6 +53,10 @@ set(MIMICRY_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns of overlaps inside std::string's operator+ that cannot happen (its bug 105651).
   list(APPEND MIMICRY_WARNINGS -Wno-restrict)
+  if(MIMICRY_SANITIZE)
+    # The checks that sanitizers add hide assignments from this warning (boost::optional, std::variant).
+    list(APPEND MIMICRY_WARNINGS -Wno-maybe-uninitialized)
+  endif()
 endif()
 if(MIMICRY_WERROR)
   list(APPEND MIMICRY_WARNINGS -Werror)
