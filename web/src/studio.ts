@@ -86,9 +86,13 @@ export class Studio {
 
   // Models ------------------------------------------------------------------------------------
 
+  /** What `open` shows. Throws where the model cannot be drawn on. */
+  prepare(model: LoadedModel): Target {
+    return this.core.createTarget(model.mesh, model.name);
+  }
+
   /** Shows another model; the drawing begins anew. Throws where it cannot be drawn on: all stays as it was. */
-  open(model: LoadedModel): void {
-    const target = this.core.createTarget(model.mesh, model.name);
+  open(model: LoadedModel, target: Target = this.prepare(model)): void {
     this.endStroke();
     this.forgetAll();
     this.target?.dispose();
@@ -308,6 +312,7 @@ export class Studio {
   restore(drawing: Drawing): void {
     for (const drawn of drawing) this.curves.add(drawn.curve);
     this.state.update({ history: { ...kEmptyHistory, drawing } });
+    this.sweep();
     this.replay();
   }
 

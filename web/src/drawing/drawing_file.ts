@@ -1,8 +1,9 @@
 import type { Core, Curve, RecordedStroke, Target } from '../engine/core';
-import type { ModelSource } from '../studio';
 import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle } from './document';
 import { kFrameSize, kPressure } from './frame';
 import type { Range } from './kept';
+import type { StoredModel } from './library';
+import { recover, type Part, type Recovered } from './recover';
 import type { MirrorAxis } from './symmetry';
 
 /** What a drawing file says of a curve; strokes and curves stand in the file's own two parts. */
@@ -23,7 +24,8 @@ export interface DrawingContent {
 interface DrawingFile extends DrawingContent {
   format: 'mimicry-drawing';
   version: 1;
-  model: { name: string; shape?: string; mesh?: string }; // mesh: base64 of the file
+  name?: string;
+  model: { name: string; shape?: string; mesh?: string; turn?: readonly number[] }; // mesh: base64 of the file
 }
 
 export const kDrawingEnding = '.mimicry-drawing';
@@ -32,17 +34,18 @@ const text = new TextDecoder();
 const bytes = new TextEncoder();
 
 /** The drawing with its model, strokes and curves in one file (docs/formats.md). */
-export function writeDrawing(core: Core, target: Target, source: ModelSource, drawing: Drawing): Uint8Array {
+export function writeDrawing(core: Core, target: Target, model: StoredModel, drawing: Drawing, name?: string): Uint8Array {
+  const { source, turn } = model;
   const file: DrawingFile = {
-    format: 'mimicry-drawing', version: 1,
-    model: 'shape' in source ? { name: target.name, shape: source.shape } : { name: source.file, mesh: toBase64(source.bytes) },
+    format: 'mimicry-drawing', version: 1, ...(name ? { name } : {}),
+    model: { ...('shape' in source ? { name: target.name, shape: source.shape } : { name: source.file, mesh: toBase64(source.bytes) }), ...(turn ? { turn } : {}) },
     ...drawingContent(core, target, drawing),
   };
   return bytes.encode(JSON.stringify(file));
 }
 
 /** The drawing as plain data that outlives the target. */
-export function drawingContent(core: Core, target: Target, drawing: Drawing): DrawingContent {
+function drawingContent(core: Core, target: Target, drawing: Drawing): DrawingContent {
   return {
     entries: drawing.map(({ id, mirror, style, kept }) => ({ id, mirror, style, kept })),
     strokes: JSON.parse(text.decode(core.writeStrokes(drawing.map((drawn) => drawn.stroke)))),
@@ -50,12 +53,17 @@ export function drawingContent(core: Core, target: Target, drawing: Drawing): Dr
   };
 }
 
+/** What a JSON file is: the `format` that it names first. Empty: none. */
+export function formatOf(content: Uint8Array): string {
+  return /^\s*\{\s*"format"\s*:\s*"([^"]*)"/.exec(text.decode(content.subarray(0, 256)))?.[1] ?? '';
+}
+
 /** Whether a file's content is a drawing. */
 export function isDrawing(content: Uint8Array): boolean {
   return text.decode(content.subarray(0, 64)).includes('"mimicry-drawing"');
 }
 
-export function readDrawingModel(content: Uint8Array, name: string): { source: ModelSource; rest: DrawingFile } {
+export function readDrawingModel(content: Uint8Array, name: string): { model: StoredModel; title: string | null; rest: DrawingContent } {
   let file: DrawingFile;
   try {
     file = JSON.parse(text.decode(content)) as DrawingFile;
@@ -65,29 +73,85 @@ export function readDrawingModel(content: Uint8Array, name: string): { source: M
   if (file.format !== 'mimicry-drawing') throw new Error(`${name}: not a mimicry drawing`);
   if (file.version !== 1) throw new Error(`${name}: a drawing of version ${String(file.version)}; this page reads version 1, reload it to get a newer one`);
   const damaged = new Error(`${name}: the file is cut off or damaged; use another copy`);
-  if (!file.strokes || !file.curves || !Array.isArray(file.entries)) throw damaged;
-  if (file.model?.shape) return { source: { shape: file.model.shape }, rest: file };
+  if (!isObject(file.strokes) || !isObject(file.curves) || !Array.isArray(file.entries)) throw damaged;
+  const title = typeof file.name === 'string' && file.name.trim() ? file.name.trim() : null;
+  const turn = soundTurn(file.model?.turn);
+  if (file.model?.shape) return { model: { name: String(file.model.shape), source: { shape: String(file.model.shape) }, ...(turn ? { turn } : {}) }, title, rest: file };
   if (!file.model?.mesh) throw new Error(`${name}: the drawing does not say which model it is on; use another copy`);
   try {
-    return { source: { file: String(file.model.name), bytes: fromBase64(file.model.mesh) }, rest: file };
+    const file64 = fromBase64(file.model.mesh);
+    return { model: { name: String(file.model.name), source: { file: String(file.model.name), bytes: file64 }, ...(turn ? { turn } : {}) }, title, rest: file };
   } catch {
     throw damaged;
   }
 }
 
-/** The drawing on the target, which is the file's model. */
-export function readDrawing(core: Core, target: Target, file: DrawingContent, name: string): Drawing {
-  const strokes = core.readStrokes(bytes.encode(JSON.stringify(file.strokes)), name);
-  const curves = target.readCurves(bytes.encode(JSON.stringify(file.curves)), name);
-  return assemble(file.entries, strokes, curves, name);
+/** A unit quaternion, or nothing. */
+export function soundTurn(given: unknown): number[] | null {
+  if (!Array.isArray(given) || given.length !== 4 || !given.every((x) => Number.isFinite(x))) return null;
+  const length = Math.hypot(...(given as number[]));
+  return Math.abs(length - 1) < 1e-3 ? (given as number[]).map((x) => x / length) : null;
 }
 
-function assemble(entries: readonly Entry[], strokes: readonly RecordedStroke[], curves: readonly Curve[], name: string): Drawing {
-  if (!Array.isArray(entries) || entries.length !== strokes.length || entries.length !== curves.length) {
-    for (const curve of curves) curve.dispose();
-    throw new Error(`${name}: the file has ${curves.length} curves and ${strokes.length} strokes but describes ${entries?.length ?? 0}; use another copy`);
+/**
+ * The drawing on the target, which is the file's model. What is damaged is told and left out; throws where nothing is left.
+ */
+export function readDrawing(core: Core, target: Target, file: DrawingContent, name: string): Recovered {
+  const { strokes, reasons } = readStrokes(core, file.strokes, name);
+  const curves = readCurves(target, file.curves, name);
+  const parts = file.entries.map((entry, i): Part => {
+    const id = typeof entry?.id === 'string' ? entry.id : `curve ${i + 1}`;
+    return { id, mirror: entry?.mirror, style: entry?.style, kept: entry?.kept, stroke: strokes.get(id) ?? null, curve: () => curves.of(id), technique: curves.techniqueOf(id) };
+  });
+  const recovered = recover(target, parts, name, reasons);
+  curves.dispose(new Set(recovered.drawing.map((drawn) => drawn.curve)));
+  if (recovered.drawing.length === 0 && parts.length > 0) throw new Error(`${name}: none of its ${parts.length} strokes can be read (${recovered.remarks[0] ?? ''}); use another copy`);
+  return recovered;
+}
+
+function readStrokes(core: Core, file: unknown, name: string): { strokes: Map<string, RecordedStroke>; reasons: string[] } {
+  const reasons: string[] = [];
+  let list: RecordedStroke[] = [];
+  if ((file as { strokes?: unknown[] }).strokes?.length !== 0) {
+    try {
+      list = core.readStrokes(bytes.encode(JSON.stringify(file)), name, (reason) => reasons.push(reason));
+    } catch (error) {
+      reasons.push(error instanceof Error ? error.message : String(error));
+    }
   }
-  return entries.map((entry, i): DrawnCurve => ({ ...entry, stroke: strokes[i]!, curve: curves[i]! }));
+  return { strokes: new Map(list.map((stroke) => [stroke.id, stroke])), reasons };
+}
+
+interface CurvesFile {
+  curves?: { stroke?: string; technique?: string }[];
+}
+
+/** The curves of a file by their strokes: all at once, or one by one where one is damaged. */
+function readCurves(target: Target, file: unknown, name: string): { of(id: string): Curve; techniqueOf(id: string): string | undefined; dispose(but: ReadonlySet<Curve>): void } {
+  const { curves } = file as CurvesFile;
+  const one = new Map((Array.isArray(curves) ? curves : []).map((curve) => [curve?.stroke, curve]));
+  const read = (content: unknown): Curve[] => target.readCurves(bytes.encode(JSON.stringify(content)), name);
+  let all = new Map<string, Curve>();
+  try {
+    all = new Map(read(file).map((curve) => [curve.stroke, curve]));
+  } catch {
+    // One by one.
+  }
+  return {
+    of(id) {
+      const known = all.get(id) ?? read({ ...(file as object), curves: [one.get(id)] })[0]!;
+      all.set(id, known);
+      return known;
+    },
+    techniqueOf: (id) => one.get(id)?.technique,
+    dispose(but) {
+      for (const curve of all.values()) if (!but.has(curve)) curve.dispose();
+    },
+  };
+}
+
+function isObject(value: unknown): boolean {
+  return typeof value === 'object' && value !== null;
 }
 
 /** The curves that are left after erasing, for files, as thick as the ink: parts are curves of their own. The caller disposes of them. */
@@ -127,10 +191,6 @@ export function colorBytes(styles: readonly InkStyle[]): Uint8Array<ArrayBuffer>
     for (let k = 0; k < 3; k += 1) out[3 * i + k] = Number.parseInt(color.slice(1 + 2 * k, 3 + 2 * k), 16);
   });
   return out;
-}
-
-export function frameCount(stroke: Pick<RecordedStroke, 'frames'>): number {
-  return stroke.frames.length / kFrameSize;
 }
 
 function toBase64(content: Uint8Array): string {

@@ -9,7 +9,7 @@ export interface Actions {
   openFiles(files: Iterable<File>): void;
   chooseFiles(): void;
   openShape(name: string): void;
-  openPrevious(): void;
+  showDrawings(): void;
   saveDrawing(): void;
   exportCurves(format: CurveFormat): void;
   exportStrokes(): void;

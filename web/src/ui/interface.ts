@@ -11,8 +11,6 @@ export interface Interface {
   help: HTMLDialogElement;
   showXr(vr: boolean, ar: boolean): void;
   showDrop(on: boolean): void;
-  /** Offers the drawing that is put away: the title of its model. */
-  showPrevious(title: string | null): void;
 }
 
 /** Builds the page around the canvas. */
@@ -58,12 +56,10 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
     item(null, 'Recorded strokes', 'to draw again', () => actions.exportStrokes()),
     item(kIcons.trash, 'Clear the drawing', '', () => actions.clear()),
   ];
-  const previousTitle = h('small');
-  const previous = h('button', { class: 'list-button', type: 'button', hidden: true, onclick: closing(() => actions.openPrevious()) }, icon(kIcons.undo), 'Previous drawing', previousTitle);
   const headset = item(kIcons.headset, 'Draw in a headset', '', () => actions.enterXr('immersive-vr'));
   const theme = item(kIcons.light, 'Light or dark', '', () => studio.set({ theme: document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark' }));
   const menu = h('div', { id: 'files', popover: 'auto', role: 'dialog', 'aria-label': 'Save, export and more' },
-    item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), previous, needing[0]!, h('hr', { class: 'hairline' }), ...needing.slice(1, 7), h('hr', { class: 'hairline' }), needing[7]!,
+    item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), item(kIcons.drawings, 'Drawings…', '', () => actions.showDrawings()), needing[0]!, h('hr', { class: 'hairline' }), ...needing.slice(1, 7), h('hr', { class: 'hairline' }), needing[7]!,
     item(kIcons.compare, 'Compare techniques', '', () => toggleCompare(studio), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
     headset, theme, item(kIcons.help, 'Help', '', () => help.showModal(), 'only-narrow'));
 
@@ -108,10 +104,6 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
       vr.hidden = !withVr;
       ar.hidden = !withAr;
       headset.hidden = withVr || withAr; // it says why there is no button
-    },
-    showPrevious(title) {
-      previous.hidden = title === null;
-      previousTitle.textContent = title ?? '';
     },
     showDrop(on) {
       drop.hidden = !on;

@@ -1,6 +1,15 @@
 import { h, icon, kIcons } from './dom';
 
-/** Sentences at the top of the page: what went wrong and what to do, and work in progress. */
+/** A button in a message. */
+export interface Remedy {
+  title: string;
+  act(): void;
+}
+
+/** How long a note stays, and one that offers something. */
+const kNote_ms = 6000, kOffer_ms = 12000;
+
+/** Sentences beside the model: what went wrong and what to do, and work in progress. */
 export class Messages {
   readonly element = h('div', { id: 'messages' });
   /** What happened, for those who do not see it. */
@@ -12,15 +21,26 @@ export class Messages {
   }
 
   /** A sentence that goes after a while. */
-  note(text: string): void {
-    const element = this.add(text, 'note');
-    setTimeout(() => element.remove(), 6000);
+  note(text: string, remedy: Remedy | null = null): void {
+    const element = this.add(text, 'note', remedy && this.button(remedy, () => element.remove()));
+    setTimeout(() => element.remove(), remedy ? kOffer_ms : kNote_ms);
   }
 
   /** A sentence that stays until it is closed. The same one is not shown twice. */
-  problem(text: string): void {
+  problem(text: string, remedy: Remedy | null = null): void {
     for (const other of this.element.querySelectorAll('.problem p')) if (other.textContent === text) return;
-    this.add(text, 'problem', h('button', { class: 'button', type: 'button', 'aria-label': 'Close this message', onclick: (e: Event) => (e.currentTarget as Element).parentElement!.remove() }, icon(kIcons.close)));
+    const element = this.add(text, 'problem', remedy && this.button(remedy, () => undefined),
+      h('button', { class: 'button', type: 'button', 'aria-label': 'Close this message', onclick: () => element.remove() }, icon(kIcons.close)));
+  }
+
+  /** A sentence that holds until the function that it returns is called. */
+  standing(text: string, remedy: Remedy): () => void {
+    const element = this.add(text, 'standing', this.button(remedy, () => undefined));
+    return () => element.remove();
+  }
+
+  private button({ title, act }: Remedy, then: () => void): HTMLElement {
+    return h('button', { class: 'button outlined', type: 'button', onclick: () => { then(); act(); } }, title);
   }
 
   /** Work in progress, until `done` is called. */
@@ -41,7 +61,8 @@ export class Messages {
   private add(text: string, kind: string, ...more: (Node | null)[]): HTMLElement {
     const element = h('div', { class: `message panel ${kind}`, role: kind === 'problem' ? 'alert' : 'status' }, h('p', {}, text), ...more);
     this.element.append(element);
-    while (this.element.children.length > 4) this.element.firstElementChild!.remove();
+    const passing = this.element.querySelectorAll('.note, .problem');
+    for (let i = 0; i < passing.length - 4; i += 1) passing[i]!.remove();
     return element;
   }
 }

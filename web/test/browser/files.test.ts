@@ -176,25 +176,6 @@ describe('drawings', () => {
     await expect.poll(async () => (await summary(page)).curves).toEqual(before.curves);
   });
 
-  it('are put away when another model is opened, and come back, also after a reload', async () => {
-    await stroke(page, kAcross);
-    const { curves } = await summary(page);
-    await drop('ring.obj', torusObj(24));
-    await expect.poll(modelName).toBe('ring.obj');
-    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('The drawing on Hand is put away')]);
-    await page.evaluate(() => document.querySelectorAll('.message').forEach((message) => message.remove()));
-    await stroke(page, kRing);
-    await settled();
-    await page.reload();
-    await page.waitForSelector('html[data-ready]');
-    await menu('Previous drawing');
-    await expect.poll(modelName).toBe('hand');
-    await expect.poll(async () => (await summary(page)).curves).toEqual(curves);
-    await menu('Previous drawing'); // the two change places
-    await expect.poll(modelName).toBe('ring.obj');
-    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
-  });
-
   it('come back without their bake where it cannot be read any more', async () => {
     await stroke(page, kAcross);
     const before = await summary(page);

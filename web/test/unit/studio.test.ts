@@ -1,11 +1,16 @@
 import { Mimicry } from 'mimicry';
 import { beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import { Autosave, type Shelf } from '../../src/drawing/autosave';
+import { Autosave } from '../../src/drawing/autosave';
 import type { Drawing } from '../../src/drawing/document';
 import { keptCurves, readDrawing, readDrawingModel, writeDrawing } from '../../src/drawing/drawing_file';
 import { kController, kHead, kPressure, makeFrame } from '../../src/drawing/frame';
+import { Library } from '../../src/drawing/library';
+import { recover } from '../../src/drawing/recover';
+import { MemoryShelf, PatientShelf } from '../../src/drawing/shelf';
+import type { RecordedStroke } from '../../src/engine/core';
 import { prepareModel, shapeModel } from '../../src/engine/model';
 import { Studio, type StudioView } from '../../src/studio';
+import { random } from './random';
 
 /** Shows nothing and remembers what it was asked to show. */
 class NullView implements StudioView {
@@ -241,10 +246,11 @@ describe('drawing files', () => {
     studio.set({ mirror: 'x' });
     draw();
     const { history, model } = studio.state.now;
-    const bytes = writeDrawing(core, studio.target!, model!.source, history.drawing);
-    const { source, rest } = readDrawingModel(bytes, 'd.mimicry-drawing');
-    expect(source).toEqual({ shape: 'sphere' });
-    const read = readDrawing(core, studio.target!, rest, 'd.mimicry-drawing');
+    const bytes = writeDrawing(core, studio.target!, model!, history.drawing, 'Two');
+    const { model: stored, title, rest } = readDrawingModel(bytes, 'd.mimicry-drawing');
+    expect([stored.source, title]).toEqual([{ shape: 'sphere' }, 'Two']);
+    const { drawing: read, remarks } = readDrawing(core, studio.target!, rest, 'd.mimicry-drawing');
+    expect(remarks).toEqual([]);
     expect(read.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }))).toEqual(history.drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] })));
   });
 
@@ -259,79 +265,151 @@ describe('drawing files', () => {
   });
 });
 
-describe('autosave', () => {
-  function memory(): Shelf & { items: Map<string, unknown>; writes: string[][] } {
-    const items = new Map<string, unknown>(), writes: string[][] = [];
-    return {
-      items, writes,
-      read: (key) => Promise.resolve(items.get(key)),
-      write: (put, remove) => {
-        writes.push([...put.keys()]);
-        for (const key of remove) items.delete(key);
-        for (const [key, value] of put) items.set(key, value);
-        return Promise.resolve();
-      },
-    };
-  }
-
-  it('brings a drawing back, and writes only what is new', async () => {
-    const shelf = memory(), autosave = new Autosave(shelf, () => undefined);
-    const save = async (): Promise<void> => {
-      const { model, history } = studio.state.now;
-      autosave.save(model!, studio.target!, history.drawing);
-      await autosave.settled();
-    };
+describe('a damaged drawing file', () => {
+  /** A drawing of three strokes as JSON, spoilt. */
+  function spoilt(change: (file: any) => void): Uint8Array {
     draw();
-    await save();
     draw(0.05, -0.05, 0.04);
-    await save();
-    expect(shelf.writes[1]!.filter((key) => key.includes(':'))).toHaveLength(2);
-    studio.undo();
-    await save();
-    expect([...shelf.items.keys()].filter((key) => key.startsWith('stroke:'))).toHaveLength(1);
-    studio.redo();
-    await save();
+    draw(-0.04, 0.05, 0.08);
+    const file = JSON.parse(new TextDecoder().decode(writeDrawing(core, studio.target!, studio.state.now.model!, studio.state.now.history.drawing)));
+    change(file);
+    return new TextEncoder().encode(JSON.stringify(file));
+  }
+  const open = (bytes: Uint8Array) => readDrawing(core, studio.target!, readDrawingModel(bytes, 'd').rest, 'd');
+  const ids = (): string[] => studio.state.now.history.drawing.map((d) => d.id);
 
-    const later = new Autosave(shelf, () => undefined);
-    const last = await later.lastModel();
-    expect(last!.model.source).toEqual({ shape: 'sphere' });
-    const drawing = await later.drawing(studio.target!, last!.model.source);
-    expect(drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }))).toEqual(studio.state.now.history.drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] })));
+  it('is opened without its bad stroke, which is named', () => {
+    const { drawing, remarks } = open(spoilt((file) => { file.strokes.strokes[1].frames[3].head.position[0] = 'x'; }));
+    expect(drawing.map((d) => d.id)).toEqual([ids()[0], ids()[2]]);
+    expect(remarks).toEqual([expect.stringContaining(ids()[1]!)]);
   });
 
-  it('keeps the drawing of the page that saved last whole, where two are open', async () => {
-    const shelf = memory(), told: (() => void)[] = [];
-    const page = (): Autosave => new Autosave({ ...shelf, onOthers: (listener) => void told.push(listener) }, () => undefined);
-    const first = page(), second = page();
+  it('without a stroke of the list too', () => {
+    const { drawing, remarks } = open(spoilt((file) => { file.strokes.strokes.splice(1, 1); }));
+    expect(drawing.map((d) => d.id)).toEqual([ids()[0], ids()[2]]);
+    expect(remarks).toEqual([expect.stringContaining(ids()[1]!)]);
+  });
+
+  it.each<[string, (file: any) => void]>([
+    ['a face that is not there', (file) => { file.curves.curves[1].points[2].face = 1e9; }],
+    ['a point without its place', (file) => { delete file.curves.curves[1].points[2].bary; }],
+    ['no curve', (file) => { file.curves.curves.splice(1, 1); }],
+  ])('has its bad curve drawn anew from the stroke: %s', (_, change) => {
+    const { drawing, remarks } = open(spoilt(change));
+    const now = studio.state.now.history.drawing;
+    expect(drawing.map((d) => [...d.curve.ink.integers])).toEqual(now.map((d) => [...d.curve.ink.integers]));
+    expect(remarks).toEqual([expect.stringContaining(ids()[1]!)]);
+  });
+
+  it('all of whose curves are of another mesh has them drawn anew', () => {
+    const { drawing, remarks } = open(spoilt((file) => { file.curves.target.vertices += 1; }));
+    expect(drawing).toHaveLength(3);
+    expect(remarks).toEqual([expect.stringContaining('3 curves')]);
+  });
+
+  it.each<[string, (entry: any) => void]>([
+    ['colour', (entry) => { entry.style.color = 'url(x)'; }], ['radius', (entry) => { entry.style.radius_m = -1; }],
+    ['parts', (entry) => { entry.kept = [[5, 2]]; }], ['parts', (entry) => { entry.kept = 'all'; }], ['style', (entry) => { delete entry.style; }],
+  ])('shows a curve whole whose %s cannot be read', (_, change) => {
+    const { drawing, remarks } = open(spoilt((file) => change(file.entries[1])));
+    expect(drawing).toHaveLength(3);
+    expect(drawing[1]!.kept).toEqual([[0, 29]]);
+    expect(drawing[1]!.style.radius_m).toBeGreaterThan(0);
+    expect(remarks).toEqual([expect.stringContaining(ids()[1]!)]);
+  });
+
+  it('of which nothing can be read is refused', () => {
+    expect(() => open(spoilt((file) => { for (const s of file.strokes.strokes) s.frames = 'gone'; }))).toThrow(/none of its 3 strokes/);
+    expect(() => open(spoilt((file) => { file.entries = null; }))).toThrow(/cut off or damaged/);
+  });
+
+  it('never throws anything but a sentence, wherever it is cut or a byte of it is another', () => {
+    const bytes = spoilt(() => undefined);
+    const seed = 4711, next = random(seed);
+    for (let i = 0; i < 60; i += 1) {
+      const bad = i % 2 === 0 ? bytes.slice(0, Math.floor(next() * bytes.length)) : bytes.slice();
+      if (i % 2 === 1) bad[Math.floor(next() * bad.length)] = 32 + Math.floor(next() * 90);
+      try {
+        const { drawing } = open(bad);
+        for (const { curve } of drawing) curve.dispose();
+      } catch (error) {
+        expect(error, `seed ${seed}, ${i}`).toBeInstanceOf(Error);
+        expect((error as Error).message, `seed ${seed}, ${i}`).toMatch(/^d: /);
+      }
+    }
+  });
+});
+
+describe('autosave', () => {
+  const content = (drawing: Drawing) => drawing.map(({ curve, ...d }) => ({ ...d, ink: [...curve.ink.integers] }));
+  const save = async (autosave: Autosave): Promise<void> => {
+    autosave.save(studio.target!, studio.state.now.history.drawing);
+    await autosave.settled();
+  };
+
+  it('keeps a drawing, and writes only what is new', async () => {
+    const shelf = new MemoryShelf(), writes: string[][] = [];
+    const autosave = new Autosave({ read: (k) => shelf.read(k), readAll: (k) => shelf.readAll(k), write: (put, remove) => { writes.push([...put.keys()]); return shelf.write(put, remove); } }, () => undefined);
+    const { model } = studio.state.now;
+    autosave.begin('a', { name: 'Sphere', isOwn: false }, { name: model!.name, source: model!.source }, 'Sphere');
     draw();
-    const { model, history } = studio.state.now;
-    first.save(model!, studio.target!, history.drawing);
-    await first.settled();
-    await second.drawing(studio.target!, model!.source);
-    second.save({ name: 'other', source: { shape: 'torus' } }, studio.target!, []);
-    await second.settled();
-    expect([...shelf.items.keys()].filter((key) => key.includes(':'))).toHaveLength(0);
-    told[0]!();
-    first.save(model!, studio.target!, history.drawing);
-    await first.settled();
-    expect(shelf.items.get('model')).toMatchObject({ source: model!.source });
-    expect(await page().drawing(studio.target!, model!.source)).toHaveLength(1);
+    await save(autosave);
+    draw(0.05, -0.05, 0.04);
+    await save(autosave);
+    expect(writes.at(-1)!.filter((key) => key.includes(':'))).toHaveLength(2);
+    studio.undo();
+    await save(autosave);
+    expect([...shelf.items.keys()].filter((key) => key.includes('stroke:'))).toHaveLength(1);
+    studio.redo();
+    await save(autosave);
+
+    const library = new Library(shelf);
+    const stored = (await library.read('a'))!;
+    expect(stored.model.source).toEqual({ shape: 'sphere' });
+    const { drawing } = recover(studio.target!, stored.entries.map((entry) => ({
+      ...entry, stroke: stored.parts.get(entry.strokeKey) as RecordedStroke, curve: () => studio.target!.readCurves(stored.parts.get(entry.curveKey) as Uint8Array, 'a')[0]!,
+    })), 'a');
+    expect(content(drawing)).toEqual(content(studio.state.now.history.drawing));
+    expect(await library.list()).toMatchObject([{ id: 'a', name: 'Sphere', strokes: 2, model: 'Sphere' }]);
+    expect(await library.last()).toBe('a');
   });
 
-  it('says when the storage is full, and goes on', async () => {
+  it('a drawing is renamed, deleted and brought back while it is drawn on', async () => {
+    const shelf = new MemoryShelf(), library = new Library(shelf), autosave = new Autosave(shelf, () => undefined);
+    autosave.begin('a', { name: 'Sphere', isOwn: false }, { name: 'sphere', source: { shape: 'sphere' } }, 'Sphere');
+    await autosave.settled();
+    await library.rename('a', 'Planet');
+    draw();
+    await save(autosave);
+    expect((await library.list())[0]).toMatchObject({ name: 'Planet', isOwn: true, strokes: 1, deleted_ms: null });
+    await library.remove('a');
+    expect((await library.list())[0]!.deleted_ms).toBeGreaterThan(0);
+    await library.tidy(() => Promise.resolve(false)); // not before a week is over
+    await library.bringBack('a');
+    expect((await library.list())[0]!.deleted_ms).toBe(null);
+    autosave.discard('a');
+    await autosave.settled();
+    expect([...shelf.items.keys()]).toEqual(['last']);
+  });
+
+  it('says when the storage is full, goes on, and loses nothing of any drawing', async () => {
     const said: (string | null)[] = [];
     let full = true;
-    const shelf = memory();
-    const autosave = new Autosave({ ...shelf, write: (put, remove) => (full ? Promise.reject(new DOMException('no', 'QuotaExceededError')) : shelf.write(put, remove)) }, (s) => said.push(s));
+    const shelf = new MemoryShelf();
+    const patient = new PatientShelf({ read: (k) => shelf.read(k), readAll: (k) => shelf.readAll(k), write: (put, remove) => (full ? Promise.reject(new DOMException('no', 'QuotaExceededError')) : shelf.write(put, remove)) });
+    const autosave = new Autosave(patient, (s) => said.push(s)), library = new Library(patient);
+    autosave.begin('a', { name: 'A', isOwn: false }, { name: 'sphere', source: { shape: 'sphere' } }, 'Sphere');
     draw();
-    const { model, history } = studio.state.now;
-    autosave.save(model!, studio.target!, history.drawing);
-    await autosave.settled();
+    await save(autosave);
     expect(said.at(-1)).toMatch(/storage is full/);
+    expect(patient.isWaiting).toBe(true);
+    autosave.begin('b', { name: 'B', isOwn: false }, { name: 'sphere', source: { shape: 'sphere' } }, 'Sphere');
+    await save(autosave);
+    expect((await library.list()).map((d) => d.name).sort()).toEqual(['A', 'B']);
+    expect((await library.read('a'))!.entries).toHaveLength(1);
     full = false;
-    autosave.save(model!, studio.target!, history.drawing);
-    await autosave.settled();
-    expect(said.at(-1)).toBe(null);
-    expect(shelf.items.has('entries')).toBe(true);
+    await save(autosave);
+    expect([said.at(-1), patient.isWaiting]).toEqual([null, false]);
+    expect((await new Library(shelf).read('a'))!.parts.size).toBeGreaterThan(2);
   });
 });

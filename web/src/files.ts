@@ -1,0 +1,165 @@
+import type { Documents } from './documents';
+import { sentence } from './documents';
+import { colorBytes, isDrawing, kDrawingEnding, keptCurves, readDrawingModel, writeDrawing } from './drawing/drawing_file';
+import type { CurveFormat } from './engine/core';
+import { loadModel } from './engine/loader';
+import { shapeModel } from './engine/model';
+import type { LoadedModel, ModelSource, Studio } from './studio';
+import type { Interface } from './ui/interface';
+
+const kMeshEndings = /\.(obj|ply|stl|off|glb|gltf)$/i;
+const kOwnEndings = new RegExp(`\\.(mimicry|json)$|\\${kDrawingEnding}$`, 'i');
+/** What models come with: it can be chosen together with them. */
+const kCompanionEndings = '.bin,.mtl,.png,.jpg,.jpeg,.webp,.ktx2';
+
+/** Files in and out: dropped, chosen, saved. */
+export class Files {
+  private loading: AbortController | null = null;
+  private readonly picker = document.createElement('input');
+
+  constructor(root: HTMLElement, private readonly studio: Studio, private readonly documents: Documents, private readonly ui: Interface) {
+    this.picker.type = 'file';
+    this.picker.multiple = true;
+    this.picker.hidden = true;
+    this.picker.accept = `.obj,.ply,.stl,.off,.glb,.gltf,.mimicry,.json,${kDrawingEnding},${kCompanionEndings}`;
+    this.picker.addEventListener('change', () => {
+      this.open(this.picker.files ?? []);
+      this.picker.value = '';
+    });
+    root.append(this.picker);
+    let depth = 0;
+    window.addEventListener('dragenter', (event) => {
+      event.preventDefault();
+      depth += 1;
+      this.ui.showDrop(true);
+    });
+    window.addEventListener('dragleave', () => {
+      depth -= 1;
+      if (depth <= 0) this.ui.showDrop(false);
+    });
+    window.addEventListener('dragover', (event) => event.preventDefault());
+    window.addEventListener('drop', (event) => {
+      event.preventDefault();
+      depth = 0;
+      this.ui.showDrop(false);
+      if (event.dataTransfer) this.open(event.dataTransfer.files);
+    });
+  }
+
+  choose(): void {
+    this.picker.click();
+  }
+
+  open(given: Iterable<File>): void {
+    // Models first: strokes and bakes that come along belong on them. Buffers and textures go with them.
+    const rank = (file: File): number => (kMeshEndings.test(file.name) ? 0 : 1);
+    const files = [...given].sort((a, b) => rank(a) - rank(b));
+    const hasModel = files.some((file) => kMeshEndings.test(file.name));
+    const beside = hasModel ? files.filter((file) => !kMeshEndings.test(file.name) && !kOwnEndings.test(file.name)) : [];
+    void (async () => {
+      for (const file of files.filter((f) => !beside.includes(f))) {
+        try {
+          await this.openFile(file, beside);
+        } catch (error) {
+          if (!(error instanceof DOMException && error.name === 'AbortError')) this.ui.messages.problem(sentence(error));
+        }
+      }
+    })();
+  }
+
+  /** A model that was kept or comes with a drawing. */
+  async modelOf(source: ModelSource): Promise<LoadedModel> {
+    return 'shape' in source ? shapeModel(this.studio.core, source.shape) : this.load(source.file, source.bytes);
+  }
+
+  private async openFile(file: File, beside: readonly File[]): Promise<void> {
+    if (kMeshEndings.test(file.name)) {
+      this.documents.openModel(await this.load(file.name, file, beside));
+      this.ui.messages.say(`${file.name} is open.`);
+      return;
+    }
+    if (file.size > 1e9) throw new Error(`${file.name}: ${(file.size / 1e9).toFixed(1)} GB is more than a browser can hold; split it`);
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    if (/\.mimicry$/i.test(file.name)) {
+      this.studio.addEmbedding(bytes, file.name);
+      this.documents.autosave.saveEmbedding(bytes);
+      this.ui.messages.note('The model is prepared: all techniques work on it.');
+    } else if (isDrawing(bytes)) {
+      await this.openDrawing(bytes, file.name);
+    } else if (/\.json$/i.test(file.name)) {
+      this.openStrokes(bytes, file.name);
+    } else {
+      throw new Error(`${file.name}: not a kind of file that the studio opens; it takes models (OBJ, PLY, STL, OFF, GLB), drawings, recorded strokes (JSON) and .mimicry files`);
+    }
+  }
+
+  private async openDrawing(bytes: Uint8Array, name: string): Promise<void> {
+    const { model: stored, title, rest } = readDrawingModel(bytes, name);
+    const { source } = stored;
+    if ('shape' in source && !this.studio.core.shapes.some((s) => s.name === source.shape)) {
+      throw new Error(`${name}: a drawing on “${source.shape}”, a model that this page does not have; reload it to get a newer page`);
+    }
+    let model: LoadedModel;
+    try {
+      model = await this.modelOf(source);
+    } catch (error) {
+      if (error instanceof DOMException) throw error;
+      throw new Error(`${name}: the model in it cannot be read (${sentence(error)}); use another copy`);
+    }
+    this.documents.openContent(model, stored, rest, title, name);
+  }
+
+  private openStrokes(bytes: Uint8Array, name: string): void {
+    const strokes = this.studio.core.readStrokes(bytes, name, (what) => this.ui.messages.note(`Left out: ${what}`));
+    const drawn = this.studio.importStrokes(strokes);
+    this.ui.messages.note(drawn === strokes.length ? `${plural(drawn, 'stroke')} drawn.` : `${drawn} of ${plural(strokes.length, 'stroke')} drawn; the others do not meet this model.`);
+  }
+
+  private async load(name: string, content: Blob | Uint8Array, beside: readonly File[] = []): Promise<LoadedModel> {
+    this.loading?.abort();
+    const controller = (this.loading = new AbortController());
+    const work = this.ui.messages.work(`Reading ${name}`, () => controller.abort());
+    try {
+      return await loadModel(name, content, beside, (stage, fraction) => work.progress(stage, fraction), controller.signal);
+    } finally {
+      work.done();
+    }
+  }
+
+  saveDrawing(): void {
+    const { model, history } = this.studio.state.now;
+    if (!model || history.drawing.length === 0) return;
+    const open = this.documents.open.now;
+    this.download(writeDrawing(this.studio.core, this.studio.target!, { name: model.name, source: model.source }, history.drawing, open?.isOwn ? open.name : undefined), kDrawingEnding);
+  }
+
+  exportCurves(format: CurveFormat): void {
+    const { curves, styles } = keptCurves(this.studio.state.now.history.drawing);
+    try {
+      this.download(this.studio.target!.writeCurves(curves, format, colorBytes(styles)), `-curves.${format}`);
+    } finally {
+      for (const curve of curves) curve.dispose();
+    }
+  }
+
+  exportStrokes(): void {
+    this.download(this.studio.core.writeStrokes(this.studio.state.now.history.drawing.map((drawn) => drawn.stroke)), '-strokes.json');
+  }
+
+  private download(bytes: Uint8Array, ending: string): void {
+    const open = this.documents.open.now;
+    const title = open?.isOwn ? open.name : this.studio.state.now.model!.name.replace(/\.[^.]+$/, '');
+    const name = title.replace(/[^\p{L}\p{N}_-]+/gu, '-') || 'drawing';
+    const url = URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>]));
+    const link = document.createElement('a');
+    link.href = url;
+    link.download = name + ending;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 10000);
+    this.ui.messages.say(`${link.download} is saved.`);
+  }
+}
+
+function plural(n: number, noun: string): string {
+  return `${n} ${noun}${n === 1 ? '' : 's'}`;
+}

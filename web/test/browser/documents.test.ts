@@ -1,0 +1,262 @@
+import type { BrowserContext, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { torusObj } from './meshes';
+import { downloaded, kAcross, Lab, messages, stroke, summary, type Opened } from './studio_page';
+
+const kRing = [[390, 190], [400, 220], [395, 250]] as const;
+const kLow = [[320, 280], [365, 285]] as const;
+
+let lab: Lab;
+let opened: Opened;
+let page: Page;
+
+beforeAll(async () => { lab = await Lab.start(); });
+afterAll(() => lab.stop());
+beforeEach(async () => {
+  opened = await lab.open(); // its storage is empty
+  page = opened.page;
+});
+afterEach(async () => {
+  expect(opened.errors).toEqual([]);
+  await opened.context.close();
+});
+
+const modelName = (on = page): Promise<string | undefined> => on.evaluate(() => window.studio.studio.state.now.model?.name);
+const settled = (on = page): Promise<void> => on.evaluate(() => window.studio.autosave.settled());
+const count = async (on: Page): Promise<number> => (await summary(on)).curves.length;
+const names = (on = page): Promise<string[]> => on.evaluate(async () => (await window.studio.documents.list()).filter((d) => d.deleted_ms === null).map((d) => d.name).sort());
+const openDrawings = async (): Promise<void> => {
+  await page.getByRole('button', { name: 'Save, export and more' }).click();
+  await page.getByRole('button', { name: 'Drawings…' }).click();
+};
+const choose = (name: string, bytes: Buffer | string): Promise<void> => page.setInputFiles('input[type=file]', [{ name, mimeType: '', buffer: Buffer.from(bytes) }]);
+
+/** Another tab of the same browser. */
+async function tab(context: BrowserContext): Promise<Page> {
+  const other = await context.newPage();
+  await other.goto(page.url());
+  await other.waitForSelector('html[data-ready]');
+  return other;
+}
+
+async function reload(on: Page): Promise<void> {
+  await settled(on);
+  await on.reload();
+  await on.waitForSelector('html[data-ready]');
+}
+
+describe('drawings', () => {
+  it('are all kept, however many models are opened, and open again from the list', async () => {
+    await stroke(page, kAcross);
+    const hand = (await summary(page)).curves;
+    await choose('ring.obj', torusObj(24));
+    await expect.poll(() => modelName()).toBe('ring.obj');
+    await stroke(page, kRing);
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await stroke(page, kRing);
+    await page.evaluate(() => window.studio.openShape('trefoil'));
+    await reload(page);
+    expect(await modelName()).toBe('trefoil');
+    await openDrawings();
+    await page.getByRole('button', { name: /^Hand 1 stroke/ }).click();
+    await expect.poll(() => modelName()).toBe('hand');
+    expect((await summary(page)).curves).toEqual(hand);
+    await openDrawings();
+    await page.getByRole('button', { name: /^ring\.obj/ }).click();
+    await expect.poll(() => modelName()).toBe('ring.obj');
+    expect(await count(page)).toBe(1);
+    await expect.poll(() => names()).toEqual(['Hand', 'Torus', 'ring.obj']); // the empty one is not kept
+    await reload(page);
+    expect(await modelName()).toBe('ring.obj');
+  });
+
+  it('are renamed, deleted and brought back', async () => {
+    await stroke(page, kAcross);
+    await openDrawings();
+    await page.getByRole('button', { name: 'Rename Hand' }).click();
+    await page.getByRole('textbox').fill('Five fingers');
+    await page.keyboard.press('Enter');
+    await page.getByRole('button', { name: 'Delete Five fingers' }).waitFor();
+    await page.getByRole('button', { name: 'New drawing' }).click();
+    expect(await count(page)).toBe(0);
+    await stroke(page, kLow);
+    await openDrawings();
+    await page.getByRole('button', { name: 'Delete Five fingers' }).click();
+    await expect.poll(() => names()).toEqual(['Hand']);
+    await page.keyboard.press('Escape');
+    await page.getByRole('button', { name: 'Undo', exact: true }).last().click();
+    await expect.poll(() => names()).toEqual(['Five fingers', 'Hand']);
+    // The open one too, and from the list after a reload.
+    await openDrawings();
+    await page.getByRole('button', { name: 'Delete Hand' }).click();
+    await expect.poll(() => count(page)).toBe(0);
+    await reload(page);
+    await openDrawings();
+    await page.getByRole('button', { name: 'Bring back' }).click();
+    await page.getByRole('button', { name: /^Hand 1 stroke/ }).click();
+    await expect.poll(() => count(page)).toBe(1);
+  });
+
+  it('of earlier pages are taken over: the open one and the one that was put away', async () => {
+    await stroke(page, kAcross);
+    await stroke(page, kLow);
+    const before = await summary(page);
+    await settled();
+    // As pages kept it before drawings had names.
+    await page.evaluate(async () => {
+      const { open, library } = window.studio.documents;
+      const stored = (await library.read(open.now!.id))!;
+      const { history, model } = window.studio.studio.state.now;
+      const strokes = JSON.parse(new TextDecoder().decode(window.studio.studio.core.writeStrokes([history.drawing[0]!.stroke])));
+      const curves = JSON.parse(new TextDecoder().decode(window.studio.studio.target!.writeCurves([history.drawing[0]!.curve], 'json')));
+      const { id, mirror, style, kept } = history.drawing[0]!;
+      window.studio.documents.autosave.pause();
+      for (const name of ['mimicry-drawings']) {
+        await new Promise((done) => { const r = indexedDB.deleteDatabase(name); r.onsuccess = done; });
+      }
+      const db = await new Promise<IDBDatabase>((done) => {
+        const request = indexedDB.open('mimicry-studio', 1);
+        request.onupgradeneeded = () => request.result.createObjectStore('shelf');
+        request.onsuccess = () => done(request.result);
+      });
+      const shelf = db.transaction('shelf', 'readwrite').objectStore('shelf');
+      shelf.put({ name: model!.name, source: model!.source }, 'model');
+      shelf.put(stored.entries, 'entries');
+      for (const { strokeKey, curveKey } of stored.entries) for (const key of [strokeKey, curveKey]) shelf.put(stored.parts.get(key), key);
+      shelf.put({ source: { shape: 'hand' }, content: { entries: [{ id, mirror, style, kept }], strokes, curves } }, 'away');
+      await new Promise((done) => (shelf.transaction.oncomplete = done));
+      db.close();
+      sessionStorage.clear();
+    });
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect((await summary(page)).curves).toEqual(before.curves);
+    expect(await names()).toEqual(['Hand', 'Hand 2']);
+    await openDrawings();
+    await page.getByRole('button', { name: /^Hand 1 stroke/ }).click();
+    await expect.poll(() => count(page)).toBe(1);
+    await reload(page);
+    expect((await summary(page)).curves).toEqual(before.curves.slice(0, 1));
+    expect(await names()).toEqual(['Hand', 'Hand 2']);
+  });
+
+  it('in a damaged file never empty the page; one with a bad stroke opens without it', async () => {
+    await stroke(page, kAcross);
+    await stroke(page, kLow);
+    const saved = (await downloaded(page, () => page.keyboard.press('Control+s'))).bytes;
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await stroke(page, kRing);
+    const spoil = (change: (file: any) => void): Buffer => {
+      const file = JSON.parse(saved.toString());
+      change(file);
+      return Buffer.from(JSON.stringify(file));
+    };
+    const bad: [string, Buffer][] = [
+      ['half', saved.subarray(0, saved.length / 2)],
+      ['strokes', spoil((file) => { file.strokes = {}; })],
+      ['curves', spoil((file) => { file.curves.curves = 7; file.strokes.strokes = []; })],
+      ['entries', spoil((file) => { file.entries = {}; })],
+      ['model', spoil((file) => { file.model = { name: 'x.obj', mesh: 'AAAA' }; })],
+      ['all', spoil((file) => { for (const s of file.strokes.strokes) s.frames[0].head = null; })],
+    ];
+    for (const [name, bytes] of bad) {
+      await choose(`${name}.mimicry-drawing`, bytes);
+      await expect.poll(async () => (await messages(page)).at(-1), { message: name }).toContain(`${name}.mimicry-drawing: `);
+      expect([await modelName(), await count(page)], name).toEqual(['torus', 1]);
+    }
+    const id = JSON.parse(saved.toString()).entries[0].id;
+    await choose('one.mimicry-drawing', spoil((file) => { file.strokes.strokes[0].frames[2].controller.position[1] = null; }));
+    await expect.poll(() => modelName()).toBe('hand');
+    expect((await summary(page)).curves.map((c) => c.id)).toEqual([JSON.parse(saved.toString()).entries[1].id]);
+    expect((await messages(page)).at(-1)).toContain(id);
+    expect(await names()).toEqual(['Hand', 'Hand 2', 'Torus']);
+  });
+});
+
+describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
+  beforeEach(async () => {
+    if (kind === 'Web Locks') return;
+    await opened.context.addInitScript(() => Object.defineProperty(Navigator.prototype, 'locks', { get: () => undefined }));
+    await reload(page);
+  });
+
+  it('never overwrite each other: the second follows, and draws on a copy', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const second = await tab(opened.context);
+    expect(await count(second)).toBe(1);
+    expect(await messages(second)).toEqual([expect.stringContaining('open in another tab')]);
+    await page.bringToFront();
+    await stroke(page, kLow);
+    await expect.poll(() => count(second)).toBe(2);
+    await page.keyboard.press('Control+z');
+    await expect.poll(() => count(second)).toBe(1);
+    await second.bringToFront();
+    await stroke(second, kLow);
+    await expect.poll(() => messages(second)).toEqual([expect.stringContaining('You draw on a copy, “Hand (copy)”')]);
+    expect(await count(second)).toBe(2);
+    await settled(second);
+    await page.bringToFront();
+    await stroke(page, [[310, 300], [350, 300]]);
+    await stroke(page, [[310, 310], [350, 310]]);
+    expect([await count(page), await count(second)]).toEqual([3, 2]);
+    await reload(page);
+    await reload(second);
+    expect([await count(page), await count(second)]).toEqual([3, 2]);
+    expect(await names()).toEqual(['Hand', 'Hand (copy)']);
+    await expect.poll(() => messages(second)).toEqual([]);
+  });
+
+  it('pass the drawing on when the one that draws is closed', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const second = await tab(opened.context);
+    expect(await second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(false);
+    await page.close({ runBeforeUnload: true });
+    await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(true);
+    expect(await messages(second)).toEqual([]);
+    await stroke(second, kLow);
+    await reload(second);
+    expect(await count(second)).toBe(2);
+    expect(await names(second)).toEqual(['Hand']);
+  });
+
+  it('a drawing that is open in the other is not deleted, and a new name arrives', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const second = await tab(opened.context);
+    const id = await page.evaluate(() => window.studio.documents.open.now!.id);
+    expect(await second.evaluate((which) => window.studio.documents.remove(which).then(() => 'gone', (error: Error) => error.message), id)).toContain('open in another tab');
+    await second.evaluate((which) => window.studio.documents.rename(which, 'Palm'), id);
+    await expect.poll(() => page.title()).toBe('Palm · mimicry studio');
+    await stroke(page, kLow);
+    await settled();
+    expect(await names()).toEqual(['Palm']);
+  });
+});
+
+describe('storage that is full', () => {
+  it('loses nothing while the page is open, offers a file, and keeps all when there is room again', async () => {
+    await page.evaluate(() => {
+      const { put } = IDBObjectStore.prototype;
+      IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); };
+      Object.assign(window, { heal: () => { IDBObjectStore.prototype.put = put; } });
+    });
+    await stroke(page, kAcross);
+    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('storage is full')]);
+    const { name } = await downloaded(page, () => page.getByRole('button', { name: 'Save to a file' }).click());
+    expect(name).toBe('hand.mimicry-drawing');
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await stroke(page, kRing);
+    await page.evaluate(async () => {
+      const hand = (await window.studio.documents.list()).find((d) => d.name === 'Hand')!;
+      await window.studio.documents.openKept(hand.id);
+    });
+    expect([await modelName(), await count(page)]).toEqual(['hand', 1]);
+    await page.evaluate(() => (window as unknown as { heal(): void }).heal());
+    await stroke(page, kLow);
+    await reload(page);
+    expect(await count(page)).toBe(2);
+    expect(await names()).toEqual(['Hand', 'Torus']);
+  });
+});
