@@ -15,6 +15,7 @@ import { Studio, type ModelSource } from './studio';
 import type { Actions } from './ui/actions';
 import { drawingsPanel } from './ui/drawings_panel';
 import { buildInterface, shapeTitle, type Interface } from './ui/interface';
+import { speakStrokes } from './ui/spoken';
 import { followTabs } from './ui/tab_notes';
 
 export const kFirstShape = 'hand';
@@ -50,6 +51,7 @@ export class App implements Actions {
     this.files = new Files(root, this.studio, this.documents, this.ui);
     root.append(drawingsPanel(this.documents, messages));
     followTabs(this.documents, messages);
+    speakStrokes(this.studio, messages);
     this.stage.onFrame = (dt_s, time_ms, frame) => {
       if (frame) this.xr.update(time_ms, dt_s, frame);
       return frame !== null;
@@ -247,6 +249,10 @@ export class App implements Actions {
         this.baking = null;
       }
     })();
+  }
+
+  say(sentence: string): void {
+    this.ui.messages.say(sentence);
   }
 
   enterXr(mode: 'immersive-vr' | 'immersive-ar'): void {

@@ -1,6 +1,7 @@
 import type { Documents } from './documents';
 import { sentence } from './documents';
-import { colorBytes, isDrawing, kDrawingEnding, keptCurves, readDrawingModel, writeDrawing } from './drawing/drawing_file';
+import { readCurveFile } from './drawing/curve_file';
+import { colorBytes, formatOf, isDrawing, kDrawingEnding, keptCurves, readDrawingModel, writeDrawing } from './drawing/drawing_file';
 import type { CurveFormat } from './engine/core';
 import { loadModel } from './engine/loader';
 import { shapeModel } from './engine/model';
@@ -11,6 +12,10 @@ const kMeshEndings = /\.(obj|ply|stl|off|glb|gltf)$/i;
 const kOwnEndings = new RegExp(`\\.(mimicry|json)$|\\${kDrawingEnding}$`, 'i');
 /** What models come with: it can be chosen together with them. */
 const kCompanionEndings = '.bin,.mtl,.png,.jpg,.jpeg,.webp,.ktx2';
+
+/** How much of a file is looked at to know what it is. */
+const kStart = 1 << 16;
+const kNotBack = 'it has curves for other programs, and no triangles to draw on; the studio reads curves back from “Curves, JSON” and from saved drawings';
 
 /** Files in and out: dropped, chosen, saved. */
 export class Files {
@@ -74,7 +79,10 @@ export class Files {
 
   private async openFile(file: File, beside: readonly File[]): Promise<void> {
     if (kMeshEndings.test(file.name)) {
+      const start = new TextDecoder().decode(await file.slice(0, kStart).arrayBuffer());
+      if (/\.obj$/i.test(file.name) && hasLinesOnly(start)) throw new Error(`${file.name}: ${kNotBack}`);
       this.documents.openModel(await this.load(file.name, file, beside));
+      if (/\.ply$/i.test(file.name) && /^property int curve\r?$/m.test(start)) this.ui.messages.note(`${file.name} holds curves as tubes; they are opened as a model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
       this.ui.messages.say(`${file.name} is open.`);
       return;
     }
@@ -86,8 +94,12 @@ export class Files {
       this.ui.messages.note('The model is prepared: all techniques work on it.');
     } else if (isDrawing(bytes)) {
       await this.openDrawing(bytes, file.name);
+    } else if (formatOf(bytes) === 'mimicry-curves') {
+      this.openCurves(bytes, file.name);
     } else if (/\.json$/i.test(file.name)) {
       this.openStrokes(bytes, file.name);
+    } else if (/\.csv$/i.test(file.name)) {
+      throw new Error(`${file.name}: ${kNotBack}`);
     } else {
       throw new Error(`${file.name}: not a kind of file that the studio opens; it takes models (OBJ, PLY, STL, OFF, GLB), drawings, recorded strokes (JSON) and .mimicry files`);
     }
@@ -110,9 +122,25 @@ export class Files {
   }
 
   private openStrokes(bytes: Uint8Array, name: string): void {
-    const strokes = this.studio.core.readStrokes(bytes, name, (what) => this.ui.messages.note(`Left out: ${what}`));
+    const { messages } = this.ui;
+    const strokes = this.studio.core.readStrokes(bytes, name, (what) => messages.note(`Left out: ${what}`));
     const drawn = this.studio.importStrokes(strokes);
-    this.ui.messages.note(drawn === strokes.length ? `${plural(drawn, 'stroke')} drawn.` : `${drawn} of ${plural(strokes.length, 'stroke')} drawn; the others do not meet this model.`);
+    messages.note(drawn === strokes.length ? `${plural(drawn, 'stroke')} drawn.` : `${drawn} of ${plural(strokes.length, 'stroke')} drawn; the others do not meet this model.`);
+    const here = this.studio.state.now.model!.name;
+    const elsewhere = [...new Set(strokes.map((stroke) => stroke.target))].filter((target) => target && !isSameModel(target, here));
+    if (elsewhere.length > 0) messages.note(`${name} was recorded on ${elsewhere.slice(0, 3).map((target) => `“${target}”`).join(', ')}; on “${here}” the curves may lie elsewhere. Open that model and drop the strokes again to have them as they were.`);
+  }
+
+  /** Curves that were exported, on the model that they were drawn on. */
+  private openCurves(bytes: Uint8Array, name: string): void {
+    const { curves, onto, leftOut } = readCurveFile(this.studio.target!, bytes, name);
+    const here = this.studio.state.now.model!;
+    if (onto.vertices !== this.studio.mesh!.positions.length / 3 || onto.faces !== here.faces) {
+      for (const { curve } of curves) curve.dispose();
+      throw new Error(`${name}: curves on “${onto.name}” (${onto.vertices.toLocaleString('en')} vertices, ${onto.faces.toLocaleString('en')} triangles), and “${here.name}” is open; open that model and drop the curves again`);
+    }
+    this.studio.importCurves(curves);
+    this.ui.messages.note(`${plural(curves.length, 'curve')} added${leftOut > 0 ? `; ${leftOut} could not be read` : ''}. They come without recorded strokes, so other techniques cannot redraw them.`);
   }
 
   private async load(name: string, content: Blob | Uint8Array, beside: readonly File[] = []): Promise<LoadedModel> {
@@ -143,7 +171,9 @@ export class Files {
   }
 
   exportStrokes(): void {
-    this.download(this.studio.core.writeStrokes(this.studio.state.now.history.drawing.map((drawn) => drawn.stroke)), '-strokes.json');
+    const strokes = this.studio.state.now.history.drawing.map((drawn) => drawn.stroke).filter((stroke) => stroke.frames.length > 0);
+    if (strokes.length === 0) throw new Error('These curves came without recorded strokes; “Curves, JSON” saves them');
+    this.download(this.studio.core.writeStrokes(strokes), '-strokes.json');
   }
 
   private download(bytes: Uint8Array, ending: string): void {
@@ -158,6 +188,16 @@ export class Files {
     setTimeout(() => URL.revokeObjectURL(url), 10000);
     this.ui.messages.say(`${link.download} is saved.`);
   }
+}
+
+function hasLinesOnly(obj: string): boolean {
+  return /^l\s/m.test(obj) && !/^f\s/m.test(obj);
+}
+
+/** Names of models are files' or shapes' names: folders, endings and case say nothing. */
+function isSameModel(a: string, b: string): boolean {
+  const bare = (name: string): string => name.toLowerCase().replace(/^.*[/\\]/, '').replace(/^shape:/, '').replace(/\.[a-z0-9]+$/, '');
+  return bare(a) === bare(b);
 }
 
 function plural(n: number, noun: string): string {

@@ -2,6 +2,7 @@ import { commit, kEmptyHistory, lastStroke, reachable, redo, undo, widthOfPressu
 import { eraseCurve, erasePart } from './drawing/erase';
 import { FrameBuffer, kPressure, makeFrame } from './drawing/frame';
 import { carryFrame } from './drawing/carry';
+import type { LooseCurve } from './drawing/curve_file';
 import { mirrorFrame, mirrorPlane, type MirrorAxis, type Plane } from './drawing/symmetry';
 import { kInked, type Core, type Curve, type MeshArrays, type RecordedStroke, type Session, type Target } from './engine/core';
 import type { Corners } from './scene/creased';
@@ -277,6 +278,7 @@ export class Studio {
   redrawLast(technique: string): void {
     const last = lastStroke(this.state.now.history.drawing);
     if (last.length === 0 || !this.offers(technique)) return;
+    if (last.some((drawn) => drawn.stroke.frames.length === 0)) throw new Error('The last curve came without its recorded stroke: it cannot be redrawn.');
     this.endStroke();
     const redrawn = new Map(last.map((drawn) => [drawn, { ...drawn, curve: this.own(this.project(technique, drawn.stroke), drawn.id) }]));
     const drawing = this.state.now.history.drawing.map((drawn) => redrawn.get(drawn) ?? drawn);
@@ -308,6 +310,22 @@ export class Studio {
     return added.length;
   }
 
+  /** Curves of a file. They have no strokes: their recordings are empty. */
+  importCurves(curves: readonly LooseCurve[]): void {
+    this.endStroke();
+    const taken = new Set(this.state.now.history.drawing.map((drawn) => drawn.id));
+    const added = curves.map(({ curve, modelToWorld }): DrawnCurve => {
+      const root = curve.stroke || 'curve';
+      let id = root;
+      for (let k = 2; taken.has(id); k += 1) id = `${root}-${k}`;
+      taken.add(id);
+      const stroke: Stroke = { id, target: this.state.now.model!.name, modelToWorld, frames: new Float64Array(0) };
+      return { id, stroke, mirror: null, style: { ...this.settings.style }, kept: [[0, Math.max(0, curve.frames.at(-1) ?? 0)]], curve: this.own(curve, id) };
+    });
+    if (added.length > 0) this.state.update({ history: commit(this.state.now.history, [...this.state.now.history.drawing, ...added], 'import') });
+    this.replay();
+  }
+
   /** A drawing that was saved. */
   restore(drawing: Drawing): void {
     for (const drawn of drawing) this.curves.add(drawn.curve);
@@ -334,7 +352,7 @@ export class Studio {
     const { compare } = this.settings;
     const last = lastStroke(this.state.now.history.drawing)[0] ?? null;
     const before = this.replayed;
-    this.replayed = compare && last && this.offers(compare) && !this.live ? this.project(compare, last.stroke) : null;
+    this.replayed = compare && last && last.stroke.frames.length > 0 && this.offers(compare) && !this.live ? this.project(compare, last.stroke) : null;
     this.view.showReplay(this.replayed, last);
     before?.dispose();
   }

@@ -100,6 +100,7 @@ export class Keyboard {
     this.send('pointerdown');
     if (!this.studio.isDrawing && this.studio.settings.tool === 'draw') {
       this.lift();
+      this.actions.say('The model is not in the middle of the window. Arrow keys turn it, F shows all of it.');
     }
   }
 

@@ -15,6 +15,8 @@ export interface Actions {
   exportStrokes(): void;
   bake(): void;
   redrawLast(): void;
+  /** For those who do not see it. */
+  say(sentence: string): void;
   enterXr(mode: 'immersive-vr' | 'immersive-ar'): void;
 }
 

@@ -50,18 +50,21 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
   // Files and the rest.
   const item = (path: string | null, title: string, note: string, act: () => void, className = ''): HTMLButtonElement =>
     h('button', { class: `list-button ${className}`, type: 'button', onclick: closing(act) }, path ? icon(path) : null, title, note ? h('small', {}, note) : null);
-  const needing = [
-    item(kIcons.save, 'Save the drawing', 'Ctrl S', () => actions.saveDrawing()),
-    ...kExports.map(({ format, title, what }) => item(null, title, what, () => actions.exportCurves(format))),
-    item(null, 'Recorded strokes', 'to draw again', () => actions.exportStrokes()),
-    item(kIcons.trash, 'Clear the drawing', '', () => actions.clear()),
-  ];
+  /** An export in two words; its whole name is read out. */
+  const small = (title: string, what: string, act: () => void): HTMLButtonElement =>
+    h('button', { class: 'list-button', type: 'button', 'aria-label': title, title: `${title}: ${what}`, onclick: closing(act) }, title.split(/, | /).at(-1)!);
+  const save = item(kIcons.save, 'Save the drawing', 'Ctrl S', () => actions.saveDrawing());
+  const clear = item(kIcons.trash, 'Clear the drawing', '', () => actions.clear());
+  const exports = [...kExports.map(({ format, title, what }) => small(title, what, () => actions.exportCurves(format))), small('Recorded strokes', 'to draw again', () => actions.exportStrokes())];
+  const needing = [save, ...exports, clear];
   const headset = item(kIcons.headset, 'Draw in a headset', '', () => actions.enterXr('immersive-vr'));
   const theme = item(kIcons.light, 'Light or dark', '', () => studio.set({ theme: document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark' }));
   const menu = h('div', { id: 'files', popover: 'auto', role: 'dialog', 'aria-label': 'Save, export and more' },
-    item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), item(kIcons.drawings, 'Drawings…', '', () => actions.showDrawings()), needing[0]!, h('hr', { class: 'hairline' }), ...needing.slice(1, 7), h('hr', { class: 'hairline' }), needing[7]!,
-    item(kIcons.compare, 'Compare techniques', '', () => toggleCompare(studio), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
-    headset, theme, item(kIcons.help, 'Help', '', () => help.showModal(), 'only-narrow'));
+    item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), item(kIcons.drawings, 'Drawings…', '', () => actions.showDrawings()), save,
+    h('hr', { class: 'hairline' }), h('p', { class: 'sheet-title' }, 'Export'), h('div', { class: 'exports', role: 'group', 'aria-label': 'Export' }, ...exports), h('hr', { class: 'hairline' }),
+    h('div', { class: 'rest' }, clear,
+      item(kIcons.compare, 'Compare techniques', '', () => toggleCompare(studio), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
+      headset, theme, item(kIcons.help, 'Help', '', () => help.showModal(), 'only-narrow')));
 
   // Comparing.
   const left = h('div', { class: 'panel' });

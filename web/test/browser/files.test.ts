@@ -99,6 +99,9 @@ describe('models', () => {
       { name: 'cut.glb', bytes: 'glTF\u0002\0\0\0', says: /cut\.glb/ },
       { name: 'empty.ply', bytes: '', says: /empty\.ply: the file is empty/ },
       { name: 'photo.jpg', bytes: 'x', says: /photo\.jpg: not a kind of file that the studio opens/ },
+      { name: 'points.ply', bytes: 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n', says: /points\.ply: .*(triangle|face)/ },
+      { name: 'none.obj', bytes: 'v 0 0 0\nv 1 0 0\nv 0 1 0\n', says: /none\.obj: .*(triangle|face)/ },
+      { name: 'cut.json', bytes: '{"format": "mimicry-curves", "version": 1, "curves": [', says: /cut\.json: the file is cut off/ },
       { name: 'other.json', bytes: '{"format": "other"}', says: /other\.json/ },
       { name: 'wrong.mimicry', bytes: 'MIMICRY?', says: /wrong\.mimicry/ },
       { name: 'new.mimicry-drawing', bytes: '{"format":"mimicry-drawing","version":1,"model":{"shape":"teapot"},"entries":[],"strokes":{},"curves":{}}', says: /new\.mimicry-drawing: a drawing on “teapot”/ },
@@ -230,6 +233,45 @@ describe('drawings', () => {
     await menu('Clear the drawing');
     await choose({ name: 'strokes.json', bytes: strokes.bytes });
     await expect.poll(async () => (await summary(page)).curves.map((c) => c.points)).toEqual([points]);
+  });
+
+  it('of another model are announced', async () => {
+    await stroke(page, kAcross, 12);
+    const strokes = await downloaded(page, () => menu('Recorded strokes'));
+    await menu('Clear the drawing');
+    await choose({ name: 'own.json', bytes: strokes.bytes });
+    await expect.poll(async () => (await messages(page)).at(-1)).toBe('1 stroke drawn.');
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await choose({ name: 'other.json', bytes: strokes.bytes });
+    await expect.poll(async () => (await messages(page)).at(-1)).toContain('other.json was recorded on “hand”; on “torus”');
+  });
+
+  it('that were exported as curves come back on their own model; for others the page says what can be done', async () => {
+    await stroke(page, kAcross, 12);
+    const ink = (): Promise<number[][]> => page.evaluate(() => window.studio.studio.state.now.history.drawing.map((d) => [...d.curve.ink.integers]));
+    const before = await ink();
+    const json = await downloaded(page, () => menu('Curves, JSON'));
+    const obj = await downloaded(page, () => menu('Polylines, OBJ'));
+    const csv = await downloaded(page, () => menu('Table, CSV'));
+    await menu('Clear the drawing');
+    await choose(json);
+    await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/1 curve added\. .*without recorded strokes/);
+    expect(await ink()).toEqual(before);
+    await page.evaluate(() => { window.studio.studio.set({ compare: 'spraycan' }); window.studio.redrawLast(); });
+    expect((await messages(page)).at(-1)).toContain('without its recorded stroke');
+    await settled();
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await ink()).toEqual(before);
+    for (const file of [obj, csv]) {
+      await choose(file);
+      await expect.poll(async () => (await messages(page)).at(-1)).toContain(`${file.name}: it has curves for other programs`);
+    }
+    expect(await ink()).toEqual(before);
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await choose({ name: 'c.json', bytes: json.bytes });
+    await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/c\.json: curves on “hand” \(.*\), and “torus” is open; open that model/);
+    expect(await ink()).toEqual([]);
   });
 
   it('that cannot be kept say so', async () => {
