@@ -17,6 +17,7 @@ import { drawingsPanel } from './ui/drawings_panel';
 import { buildInterface, shapeTitle, type Interface } from './ui/interface';
 import { speakStrokes } from './ui/spoken';
 import { followTabs } from './ui/tab_notes';
+import { littleInk } from './ui/technique_text';
 
 export const kFirstShape = 'hand';
 /** Everything on the page, put together. */
@@ -56,13 +57,16 @@ export class App implements Actions {
       if (frame) this.xr.update(time_ms, dt_s, frame);
       return frame !== null;
     };
+    // Ink is computed beside the graphics: a stroke goes on, and is seen when they are back.
     this.stage.onContext = (lost) => {
-      this.pointer.release();
       if (lost) this.ui.messages.problem('The graphics driver was reset; the picture comes back by itself and the drawing is safe. If it does not, reload the page.');
     };
+    this.pointer.onUndo = () => this.undo();
+    this.pointer.onRedo = () => this.redo();
+    this.pointer.pen.onLittleInk = (technique) => this.ui.messages.note(littleInk(technique));
     this.stage.onResize = () => this.cover();
     this.xr.onNote = (sentence) => this.ui.messages.note(sentence);
-    this.xr.onEnd = () => this.frameModel();
+    this.xr.onEnd = () => this.ui.messages.say('You left the headset; everything is kept.');
     this.follow();
   }
 

@@ -1,6 +1,6 @@
 import type { InkStyle } from './drawing/document';
 import type { MirrorAxis } from './drawing/symmetry';
-import type { PenPlace } from './input/plane_pen';
+import type { PenPlace } from './input/screen_frame';
 
 export type Tool = 'draw' | 'erase curve' | 'erase part';
 export type Theme = 'system' | 'light' | 'dark';
@@ -11,6 +11,8 @@ export interface Settings {
   tool: Tool;
   style: InkStyle;
   penPlace: PenPlace;
+  /** Radius of the eraser in the world. */
+  eraser_m: number;
   mirror: MirrorAxis | null;
   /** The technique that the right half shows; null: no second half. */
   compare: string | null;
@@ -32,12 +34,15 @@ export const kInks = [
 
 export const kLeastRadius_m = 0.0005;
 export const kMostRadius_m = 0.012;
+export const kLeastEraser_m = 0.002;
+export const kMostEraser_m = 0.06;
 
 export const kDefaults: Settings = {
   technique: 'mimicry-live',
   tool: 'draw',
   style: { color: kInks[1].color, radius_m: 0.003, offset_m: 0 },
-  penPlace: 'in front',
+  penPlace: 'under the pointer',
+  eraser_m: 0.009,
   mirror: null,
   compare: null,
   hand: 'right',
@@ -72,7 +77,8 @@ export function readSettings(storage: Pick<Storage, 'getItem'>): Settings {
   };
   pick('technique', (v) => typeof v === 'string');
   pick('tool', (v) => v === 'draw' || v === 'erase curve' || v === 'erase part');
-  pick('penPlace', (v) => v === 'in front' || v === 'on the surface');
+  pick('penPlace', (v) => v === 'under the pointer' || v === 'on a plane');
+  pick('eraser_m', (v) => typeof v === 'number' && v >= kLeastEraser_m && v <= kMostEraser_m);
   pick('mirror', (v) => v === null || v === 'x' || v === 'y' || v === 'z');
   pick('hand', (v) => v === 'left' || v === 'right');
   pick('theme', (v) => v === 'system' || v === 'light' || v === 'dark');
@@ -90,6 +96,12 @@ export function writeSettings(storage: Pick<Storage, 'setItem'>, settings: Setti
   } catch {
     // Private windows and full disks: the choice lasts until the page is closed.
   }
+}
+
+/** The settings after what the tool in use writes or erases with became `factor` times as large. */
+export function resized({ tool, style, eraser_m }: Settings, factor: number): Partial<Settings> {
+  if (tool === 'draw') return { style: { ...style, radius_m: clampRadius(style.radius_m * factor) } };
+  return { eraser_m: Math.min(kMostEraser_m, Math.max(kLeastEraser_m, eraser_m * factor)) };
 }
 
 export function clampRadius(radius_m: number): number {

@@ -45,6 +45,9 @@ export interface StudioState {
   modelToWorld: Float64Array;
 }
 
+/** The techniques' option with which a pen inside the object draws at the surface that it went through. */
+const kDippedPen = 'dipped-pen';
+
 /** Where a new model stands: in front of someone who stands at the origin. */
 export const kCentre: readonly [number, number, number] = [0, 1.15, -0.55];
 
@@ -232,17 +235,16 @@ export class Studio {
 
   // Edits -------------------------------------------------------------------------------------
 
-  beginErase(): void {
-    const { tool } = this.settings;
+  beginErase(tool = this.settings.tool): void {
     if (tool === 'draw' || this.live) return;
     this.erasing = { before: this.state.now.history.drawing, tool };
   }
 
-  /** Erases around a point of model space. */
+  /** Erases around a point of model space; with symmetry the other copies of a stroke too. */
   eraseAt(x: number, y: number, z: number, radius: number): void {
     if (!this.erasing) return;
     const { history } = this.state.now;
-    const drawing = (this.erasing.tool === 'erase curve' ? eraseCurve : erasePart)(history.drawing, x, y, z, radius);
+    const drawing = (this.erasing.tool === 'erase curve' ? eraseCurve : erasePart)(history.drawing, x, y, z, radius, this.settings.mirror !== null);
     if (drawing !== history.drawing) this.state.update({ history: { ...history, drawing } });
   }
 
@@ -253,6 +255,14 @@ export class Studio {
     const { history } = this.state.now;
     this.state.update({ history: commit({ ...history, drawing: erasing.before }, history.drawing, erasing.tool === 'erase curve' ? 'erasing' : 'erasing a part') });
     this.sweep();
+  }
+
+  /** What was erased since `beginErase` comes back. */
+  cancelErase(): void {
+    const erasing = this.erasing;
+    if (!erasing) return;
+    this.erasing = null;
+    this.state.update({ history: { ...this.state.now.history, drawing: erasing.before } });
   }
 
   undo(): void {
@@ -381,7 +391,9 @@ export class Studio {
     const key = `${technique}/${copy}`;
     let session = this.sessions.get(key);
     if (!session) {
-      session = this.target!.session(technique);
+      // A hand in space goes through surfaces: what it draws then starts where it went in.
+      const dips = this.technique(technique).options.some(({ name }) => name === kDippedPen);
+      session = this.target!.session(technique, dips ? { options: { [kDippedPen]: 1 } } : {});
       this.sessions.set(key, session);
     }
     return session;

@@ -1,5 +1,5 @@
 import type { Stage } from '../scene/stage';
-import { clampRadius, kInks } from '../settings';
+import { kInks, resized } from '../settings';
 import type { Studio } from '../studio';
 import type { Actions } from '../ui/actions';
 import { toggleCompare } from '../ui/interface';
@@ -15,17 +15,15 @@ export class Keyboard {
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly stage: Stage, private readonly studio: Studio, private readonly pointer: PointerInput, private readonly actions: Actions, private readonly showHelp: () => void) {
     window.addEventListener('keydown', (event) => this.down(event));
-    window.addEventListener('keyup', (event) => {
-      if (event.code === 'Space') this.pointer.navigate = false;
-    });
+    window.addEventListener('keyup', (event) => this.up(event), true);
     canvas.addEventListener('blur', () => this.lift());
   }
 
   private down(event: KeyboardEvent): void {
-    const at = event.target as HTMLElement;
-    if (document.querySelector('dialog[open]') || at.closest('select, input:not([type=range])')) return;
+    const at = event.target instanceof HTMLElement ? event.target : document.body;
+    if (writesText(at)) return;
     if (event.ctrlKey || event.metaKey) {
-      const key = event.key.toLowerCase();
+      const key = latin(event);
       if (key === 'z' && event.shiftKey) this.actions.redo();
       else if (key === 'z') this.actions.undo();
       else if (key === 'y') this.actions.redo();
@@ -35,11 +33,18 @@ export class Keyboard {
       event.preventDefault();
       return;
     }
-    if (event.altKey) return;
+    if (event.key === 'Escape' && (this.pointer.cancel() || this.pen)) {
+      this.pen = null;
+      event.preventDefault();
+      return;
+    }
+    if (event.altKey || document.querySelector('dialog[open]')) return;
+    if (event.code === 'Space') this.space(event, at);
+    if (at.closest('select')) return;
     const onCanvas = at === this.canvas || at === document.body;
     const onControl = !onCanvas && at.closest('button, input, [popover], a') !== null;
     const { studio } = this;
-    const { style } = studio.settings;
+    const { style, penPlace } = studio.settings;
     switch (event.key) {
       case 'd': case 'D': studio.set({ tool: 'draw' }); break;
       case 'e': case 'E': studio.set({ tool: 'erase curve' }); break;
@@ -47,21 +52,13 @@ export class Keyboard {
       case 'c': case 'C': toggleCompare(studio); break;
       case 't': case 'T': document.getElementById('techniques')?.togglePopover(); break;
       case 'm': case 'M': studio.set({ mirror: studio.settings.mirror === null ? 'x' : null }); break;
-      case 'p': case 'P': studio.set({ penPlace: studio.settings.penPlace === 'in front' ? 'on the surface' : 'in front' }); break;
+      case 'p': case 'P': studio.set({ penPlace: penPlace === 'on a plane' ? 'under the pointer' : 'on a plane' }); break;
       case 'f': case 'F': this.actions.frameModel(); break;
-      case '[': studio.set({ style: { ...style, radius_m: clampRadius(style.radius_m / 1.15) } }); break;
-      case ']': studio.set({ style: { ...style, radius_m: clampRadius(style.radius_m * 1.15) } }); break;
+      case '[': studio.set(resized(studio.settings, 1 / 1.15)); break;
+      case ']': studio.set(resized(studio.settings, 1.15)); break;
       case '+': case '=': this.stage.rig.zoom(1 / 1.15); break;
       case '-': case '−': this.stage.rig.zoom(1.15); break;
       case '?': this.showHelp(); break;
-      case 'Escape':
-        if (!this.pen) return;
-        this.lift();
-        break;
-      case ' ':
-        if (onControl) return;
-        this.pointer.navigate = true;
-        break;
       case 'Enter':
         if (onControl) return;
         if (this.pen) this.lift();
@@ -79,6 +76,21 @@ export class Keyboard {
     }
     event.preventDefault();
     this.stage.invalidate();
+  }
+
+  /** Held: the pointer navigates. Where a control has the focus it is the control's too, unless it is used to navigate. */
+  private space(event: KeyboardEvent, at: HTMLElement): void {
+    this.pointer.navigate = true;
+    if (!event.repeat) this.pointer.navigated = false;
+    const control = at.closest('button, input, [popover], a, select');
+    if (!control || this.pointer.navigated || (this.pointer.over && control.matches('select'))) event.preventDefault();
+  }
+
+  private up(event: KeyboardEvent): void {
+    if (event.code !== 'Space') return;
+    this.pointer.navigate = false;
+    if (this.pointer.navigated) event.preventDefault(); // no click of a button that has the focus
+    this.pointer.navigated = false;
   }
 
   private arrow(key: string, fast: boolean): void {
@@ -116,4 +128,15 @@ export class Keyboard {
       clientX: this.pen!.x, clientY: this.pen!.y, bubbles: true,
     }));
   }
+}
+
+/** Where keys are text, and undo is the text's. */
+function writesText(at: HTMLElement): boolean {
+  return at.isContentEditable || at.closest('textarea, input:not([type=range], [type=radio], [type=checkbox], [type=button], [type=color], [type=file])') !== null;
+}
+
+/** The letter of a key, on keyboards of other scripts the one that stands there on a Latin one. */
+function latin(event: KeyboardEvent): string {
+  if (/^[a-z]$/i.test(event.key) || !event.code.startsWith('Key')) return event.key.toLowerCase();
+  return event.code.slice(3).toLowerCase();
 }

@@ -1,11 +1,11 @@
 import { kController, kHead, kPressure, kTime, kTrigger, makeFrame } from '../drawing/frame';
 import { toModel, toWorld } from '../math/similarity';
-import { rotate } from '../math/vec';
+import { multiply, rotate } from '../math/vec';
 import type { Stage } from '../scene/stage';
 import type { ThreeView } from '../scene/three_view';
 import { kInkStride } from '../scene/tube';
 import { XrHands } from '../scene/xr_hands';
-import { clampRadius, kInks, type Hand } from '../settings';
+import { kInks, resized, type Hand } from '../settings';
 import type { Studio } from '../studio';
 import { carryModel, stretchModel } from './grab';
 import { Hysteresis } from './hysteresis';
@@ -22,7 +22,9 @@ const kStickDead = 0.5;
 const kStickRate = 3;
 /** The pen erases what is this near to its tip; farther away, where it points. */
 const kReach_m = 0.03;
-const kEraser_m = 0.012;
+const kMostEraserSteps = 64;
+/** Where the model stands at first, from the head. */
+const kBelowEyes_m = 0.05, kNearest_m = 0.4, kFarthest_m = 1.2;
 const kLeastScale = 0.1, kMostScale = 20; // of the model's own size
 
 const kHands = ['left', 'right'] as const;
@@ -53,16 +55,22 @@ function device(hand: Hand): Device {
 export class XrInput {
   private session: XRSession | null = null;
   private readonly devices: Record<Hand, Device> = { left: device('left'), right: device('right') };
-  private readonly hands: XrHands;
+  readonly hands: XrHands;
   private readonly frame = makeFrame();
   private readonly model = new Float64Array(8);
   private baseScale = 1;
+  /** Where the model stood on the page, and which it was. */
+  private readonly pagePlace = new Float64Array(8);
+  private pageModel: Studio['state']['now']['model'] = null;
+  private placed = false;
   private grabbed = 0; // hands that held the model in the last frame
   private lastTime_ms = 0;
   private readonly tip = new Float64Array(3);
   private readonly spot = new Float64Array(3);
   private readonly normal = new Float64Array(3);
   private readonly axis = new Float64Array(3);
+  private readonly erased = new Float64Array(3); // model space, in the last frame
+  private erasedBefore = false;
   /** Says something that happened; a sentence. */
   onNote: (sentence: string) => void = () => undefined;
   onEnd: () => void = () => undefined;
@@ -95,9 +103,13 @@ export class XrInput {
     this.studio.endStroke();
     this.session = session;
     this.grabbed = 0;
-    this.baseScale = this.studio.state.now.modelToWorld[7]!;
+    this.pagePlace.set(this.studio.state.now.modelToWorld);
+    this.pageModel = this.studio.state.now.model;
+    this.baseScale = this.pagePlace[7]!;
+    this.placed = false;
+    this.hands.hint = 'Pull the trigger on the model to draw';
     for (const hand of kHands) Object.assign(this.devices[hand], device(hand));
-    session.addEventListener('end', () => this.leave());
+    session.addEventListener('end', () => this.ended());
     session.addEventListener('visibilitychange', () => {
       if (session.visibilityState !== 'visible') this.stop();
     });
@@ -117,14 +129,54 @@ export class XrInput {
     await this.session?.end();
   }
 
-  private leave(): void {
+  /** The renderer may hear of it later, and has the headset's size until then. */
+  private ended(): void {
     this.stop();
+    const { xr } = this.stage.renderer;
+    if (!xr.isPresenting) {
+      this.leave();
+      return;
+    }
+    const leave = (): void => {
+      xr.removeEventListener('sessionend', leave);
+      this.leave();
+    };
+    xr.addEventListener('sessionend', leave);
+  }
+
+  private leave(): void {
     this.session = null;
     this.hands.visible = false;
     this.view.pen.hide();
+    // The page shows the model where it stood there.
+    if (this.studio.state.now.model === this.pageModel) this.studio.place(this.pagePlace);
     this.view.showTwinInRoom(false, this.studio.state.now.modelToWorld);
     this.stage.leaveXr();
     this.onEnd();
+  }
+
+  /** The model stands before the head, facing it, a little below the eyes, near enough for the hands. */
+  private standBefore(head: XRRigidTransform): void {
+    const { position: p, orientation: q } = head;
+    this.axis[0] = 0; this.axis[1] = 0; this.axis[2] = -1;
+    rotate(this.axis, 0, [q.x, q.y, q.z, q.w], 0, this.axis, 0);
+    const level = Math.hypot(this.axis[0]!, this.axis[2]!);
+    // Someone who looks straight up or down stands some way.
+    const x = level > 0.1 ? this.axis[0]! / level : 0, z = level > 0.1 ? this.axis[2]! / level : -1;
+    const { model } = this;
+    model.set(this.pagePlace);
+    const yaw = Math.atan2(-x, -z);
+    multiply(model, 0, [0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2)], 0, model, 0);
+    const size = this.studio.target!.diagonal * model[7]!;
+    const away = Math.min(kFarthest_m, Math.max(kNearest_m, 0.25 + 0.7 * size));
+    const centre = this.studio.centre();
+    model[4] = 0; model[5] = 0; model[6] = 0;
+    toWorld(this.spot, 0, model, centre, 0);
+    model[4] = p.x + away * x - this.spot[0]!;
+    model[5] = p.y - kBelowEyes_m - this.spot[1]!;
+    model[6] = p.z + away * z - this.spot[2]!;
+    this.studio.place(model);
+    this.placed = true;
   }
 
   /** Ends what the hands are doing and keeps it. */
@@ -153,6 +205,7 @@ export class XrInput {
     const space = this.stage.renderer.xr.getReferenceSpace();
     if (!this.session || !space) return;
     const viewer = frame.getViewerPose(space);
+    if (viewer && !this.placed && this.studio.target) this.standBefore(viewer.transform);
     this.read(frame, space);
     const pen = this.devices[this.studio.settings.hand];
     const other = this.devices[pen.hand === 'left' ? 'right' : 'left'];
@@ -221,8 +274,10 @@ export class XrInput {
     if (edge === 'press' && !this.waiting) {
       if (studio.settings.tool === 'draw') {
         studio.beginStroke();
+        this.hands.hint = null;
         pulse(pen.source, 0.6, 25);
       } else {
+        this.erasedBefore = false;
         studio.beginErase();
       }
     }
@@ -238,13 +293,24 @@ export class XrInput {
     const place = this.studio.state.now.modelToWorld, target = this.studio.target!;
     toModel(this.spot, 0, place, pen.pose, 0);
     const near = target.closestPoint(this.spot[0]!, this.spot[1]!, this.spot[2]!);
-    const radius = kEraser_m / place[7]!;
-    if (near && near.distance * place[7]! < kReach_m) {
-      this.studio.eraseAt(near.position[0]!, near.position[1]!, near.position[2]!, radius);
+    const radius = this.studio.settings.eraser_m / place[7]!;
+    const at = near && near.distance * place[7]! < kReach_m ? near : this.aim(pen);
+    if (!at) {
+      this.erasedBefore = false;
       return;
     }
-    const hit = this.aim(pen);
-    if (hit) this.studio.eraseAt(hit.position[0]!, hit.position[1]!, hit.position[2]!, radius);
+    this.normal.set(at.position);
+    // From where it was a frame ago, in steps that leave no gap.
+    if (!this.erasedBefore) this.erased.set(this.normal);
+    const steps = Math.max(1, Math.ceil(Math.hypot(this.normal[0]! - this.erased[0]!, this.normal[1]! - this.erased[1]!, this.normal[2]! - this.erased[2]!) / radius));
+    for (let i = 1; i <= Math.min(steps, kMostEraserSteps); i += 1) {
+      const t = i / Math.min(steps, kMostEraserSteps);
+      this.studio.eraseAt(
+        this.erased[0]! + t * (this.normal[0]! - this.erased[0]!), this.erased[1]! + t * (this.normal[1]! - this.erased[1]!),
+        this.erased[2]! + t * (this.normal[2]! - this.erased[2]!), radius);
+    }
+    this.erased.set(this.normal);
+    this.erasedBefore = true;
   }
 
   /** Where the pen points. */
@@ -283,8 +349,7 @@ export class XrInput {
       if (!pad) continue;
       const x = pad.axes[2] ?? 0, y = pad.axes[3] ?? 0;
       if (Math.abs(y) > kStickDead && Math.abs(y) > Math.abs(x)) {
-        const { style } = this.studio.settings;
-        this.studio.set({ style: { ...style, radius_m: clampRadius(style.radius_m * Math.exp(-y * dt_s * Math.log(kStickRate))) } });
+        this.studio.set(resized(this.studio.settings, Math.exp(-y * dt_s * Math.log(kStickRate))));
       }
       const pushed = Math.abs(x) > 0.7 && Math.abs(x) > Math.abs(y);
       if (pushed && !d.stick) {
@@ -292,8 +357,14 @@ export class XrInput {
         else this.nextComparison(Math.sign(x));
       }
       d.stick = pushed;
-      if (this.pushed(d, pad, kSecondButton)) this.studio.undo();
-      if (this.pushed(d, pad, kFirstButton)) this.nextInk();
+      if (this.pushed(d, pad, kSecondButton)) {
+        if (d === pen) this.studio.undo();
+        else this.studio.redo();
+      }
+      if (this.pushed(d, pad, kFirstButton)) {
+        if (d === pen) this.nextInk();
+        else this.nextSymmetry();
+      }
       if (this.pushed(d, pad, kStick)) this.nextTool();
     }
   }
@@ -322,6 +393,11 @@ export class XrInput {
     const { style } = this.studio.settings;
     const at = kInks.findIndex(({ color }) => color === style.color);
     this.studio.set({ style: { ...style, color: kInks[(at + 1) % kInks.length]!.color } });
+  }
+
+  private nextSymmetry(): void {
+    const axes = [null, 'x', 'y', 'z'] as const;
+    this.studio.set({ mirror: axes[(axes.indexOf(this.studio.settings.mirror) + 1) % axes.length]! });
   }
 
   private nextTool(): void {

@@ -7,6 +7,7 @@ const kEase_s = 0.045;
 interface View {
   yaw: number;
   pitch: number;
+  roll: number;
   distance: number;
   x: number;
   y: number;
@@ -15,7 +16,7 @@ interface View {
 
 /** A camera on a turntable around a point: orbit, pan, zoom about a point of the screen; follows softly. */
 export class CameraRig {
-  private readonly goal: View = { yaw: 0, pitch: 0, distance: 1, x: 0, y: 0, z: 0 };
+  private readonly goal: View = { yaw: 0, pitch: 0, roll: 0, distance: 1, x: 0, y: 0, z: 0 };
   private readonly now: View = { ...this.goal };
   private nearest = 0.01;
   private farthest = 100;
@@ -32,7 +33,7 @@ export class CameraRig {
   frame(x: number, y: number, z: number, radius: number, yaw: number, pitch: number, free = 1): void {
     const half = (this.camera.fov / 360) * Math.PI;
     const narrow = Math.atan(Math.tan(half) * Math.min(free, this.camera.aspect));
-    Object.assign(this.goal, { yaw, pitch, x, y, z, distance: radius / Math.sin(narrow) });
+    Object.assign(this.goal, { yaw, pitch, roll: 0, x, y, z, distance: radius / Math.sin(narrow) });
     this.nearest = radius * 0.15;
     this.farthest = radius * 20;
     this.camera.near = radius * 0.02;
@@ -41,9 +42,16 @@ export class CameraRig {
     this.jump();
   }
 
+  /** dYaw, dPitch: as seen in the window, whatever the roll. */
   orbit(dYaw: number, dPitch: number): void {
-    this.goal.yaw += dYaw;
-    this.goal.pitch = Math.min(kSteepest, Math.max(-kSteepest, this.goal.pitch + dPitch));
+    const c = Math.cos(this.goal.roll), s = Math.sin(this.goal.roll);
+    this.goal.yaw += c * dYaw + s * dPitch;
+    this.goal.pitch = Math.min(kSteepest, Math.max(-kSteepest, this.goal.pitch + c * dPitch - s * dYaw));
+  }
+
+  /** The picture turns by this angle in the window, clockwise. */
+  roll(angle: number): void {
+    this.goal.roll += angle;
   }
 
   /** dx, dy: parts of the window's height, to the right and down. */
@@ -94,10 +102,11 @@ export class CameraRig {
   }
 
   private apply(): void {
-    const { yaw, pitch, distance, x, y, z } = this.now;
+    const { yaw, pitch, roll, distance, x, y, z } = this.now;
     turn.setFromAxisAngle(yAxis, yaw);
     this.camera.quaternion.setFromAxisAngle(xAxis, -pitch).premultiply(turn);
     this.camera.position.set(0, 0, distance).applyQuaternion(this.camera.quaternion);
+    this.camera.quaternion.multiply(turn.setFromAxisAngle(zAxis, roll));
     this.camera.position.x += x;
     this.camera.position.y += y;
     this.camera.position.z += z;
@@ -105,9 +114,10 @@ export class CameraRig {
   }
 }
 
-const keys = ['yaw', 'pitch', 'distance', 'x', 'y', 'z'] as const;
+const keys = ['yaw', 'pitch', 'roll', 'distance', 'x', 'y', 'z'] as const;
 const right = new Vector3();
 const up = new Vector3();
 const xAxis = new Vector3(1, 0, 0);
 const yAxis = new Vector3(0, 1, 0);
+const zAxis = new Vector3(0, 0, 1);
 const turn = new Quaternion();

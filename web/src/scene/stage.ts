@@ -15,6 +15,9 @@ export const kLooks: Record<'light' | 'dark', Look> = {
   dark: { background: '#17191d', floor: '#23262c', clay: '#a9a7a3' },
 };
 
+/** Of the picture's height, in degrees. */
+const kFov = 35;
+
 /** Below this part of the height, the width says how far away the camera stands. */
 const kNarrow = 0.7;
 
@@ -29,7 +32,7 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly scene = new Scene();
   readonly twin = new Scene();
-  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly camera = new PerspectiveCamera(kFov, 1, 0.01, 100);
   readonly rig = new CameraRig(this.camera);
   /** What stands in the world whatever the camera does. */
   readonly world = new Group();
@@ -97,11 +100,14 @@ export class Stage {
     this.scene.add(this.floor, this.grid);
   }
 
+  /** The renderer has left the headset: window, camera and picture are as they were. */
   leaveXr(): void {
     this.scene.remove(this.floor, this.grid);
     this.setLook(this.look);
-    this.width = 0; // the headset had another size
-    this.resize();
+    // The headset wrote its own pose and projection into the camera, and the window may have another size.
+    this.camera.fov = kFov;
+    this.camera.scale.setScalar(1);
+    this.resize(true);
   }
 
   /** A new picture is wanted. */
@@ -109,10 +115,10 @@ export class Stage {
     this.dirty = true;
   }
 
-  private resize(): void {
+  private resize(anew = false): void {
     const parent = this.canvas.parentElement!;
     const width = Math.max(1, parent.clientWidth), height = Math.max(1, parent.clientHeight);
-    if ((width === this.width && height === this.height) || this.renderer.xr.isPresenting) return;
+    if ((!anew && width === this.width && height === this.height) || this.renderer.xr.isPresenting) return;
     this.width = width;
     this.height = height;
     this.renderer.setSize(width, height, false);

@@ -13,8 +13,8 @@ export class XrHands {
   private readonly pen = new Group();
   private readonly handle = new Group();
   private readonly nib = new MeshStandardMaterial({ roughness: 0.4 });
-  private readonly canvas = document.createElement('canvas');
-  private readonly texture: CanvasTexture;
+  private readonly card = new Card(0.16, 512, 240);
+  private readonly hintCard = new Card(0.2, 640, 96);
   private said: Settings | null = null;
 
   constructor() {
@@ -29,19 +29,32 @@ export class XrHands {
     const grip = new Mesh(new CylinderGeometry(0.012, 0.014, 0.11, 20), body);
     grip.rotation.x = -Math.PI / 2;
     grip.position.z = 0.05;
-    this.canvas.width = 512;
-    this.canvas.height = 192;
-    this.texture = new CanvasTexture(this.canvas);
-    const card = new Mesh(new PlaneGeometry(0.16, 0.06), new MeshBasicMaterial({ map: this.texture, transparent: true, toneMapped: false }));
-    card.position.set(0, 0.06, 0.02);
-    card.rotation.x = -0.5;
-    this.handle.add(grip, card);
+    this.card.mesh.position.set(0, 0.07, 0.02);
+    this.card.mesh.rotation.x = -0.5;
+    this.handle.add(grip, this.card.mesh);
+    this.hintCard.mesh.position.set(0, 0.06, 0.02);
+    this.hintCard.mesh.rotation.x = -0.5;
+    this.pen.add(this.hintCard.mesh);
+    this.hint = null;
     this.group.add(this.pen, this.handle);
     this.group.visible = false;
   }
 
   set visible(on: boolean) {
     this.group.visible = on;
+  }
+
+  /** A sentence beside the pen; null: none. */
+  set hint(text: string | null) {
+    this.hintCard.mesh.visible = text !== null;
+    if (text === null) return;
+    this.hintCard.clear();
+    this.hintCard.line(text, 32, 60, 36, '#fff', 576);
+    this.hintCard.done();
+  }
+
+  get hintVisible(): boolean {
+    return this.hintCard.mesh.visible;
   }
 
   show(pen: Hand, other: Hand, settings: Settings): void {
@@ -51,29 +64,64 @@ export class XrHands {
     this.said = settings;
     this.nib.color.set(settings.tool === 'draw' ? settings.style.color : '#ffffff');
     const title = settings.tool === 'draw' ? techniqueTitle(settings.technique) : settings.tool === 'erase curve' ? 'Erase curves' : 'Erase parts';
-    this.write(title, settings.compare ? `beside: ${techniqueTitle(settings.compare)}` : `${(2000 * settings.style.radius_m).toFixed(1)} mm`, settings.style.color);
+    const size = settings.tool === 'draw' ? settings.style.radius_m : settings.eraser_m;
+    this.write(title, settings.compare ? `beside: ${techniqueTitle(settings.compare)}` : `${(2000 * size).toFixed(1)} mm`,
+      `lower button: symmetry ${settings.mirror ? settings.mirror.toUpperCase() : 'off'} · upper: redo`, settings.style.color);
   }
 
-  private write(title: string, second: string, color: string): void {
+  private write(title: string, second: string, third: string, color: string): void {
+    const { card } = this;
+    card.clear();
+    card.dot(70, 80, 34, color);
+    card.line(title, 130, 74, 44, '#fff', 360);
+    card.line(second, 130, 126, 36, '#b9bbc0', 360);
+    card.line(third, 36, 196, 28, '#b9bbc0', 450);
+    card.done();
+  }
+}
+
+/** A card with text in the room. width_m: in the room; the picture's size in pixels. */
+class Card {
+  private readonly canvas = document.createElement('canvas');
+  private readonly texture: CanvasTexture;
+  readonly mesh: Mesh;
+
+  constructor(width_m: number, width: number, height: number) {
+    this.canvas.width = width;
+    this.canvas.height = height;
+    this.texture = new CanvasTexture(this.canvas);
+    this.mesh = new Mesh(new PlaneGeometry(width_m, (width_m * height) / width), new MeshBasicMaterial({ map: this.texture, transparent: true, toneMapped: false }));
+  }
+
+  clear(): void {
     const pen = this.canvas.getContext('2d')!;
-    pen.clearRect(0, 0, 512, 192);
+    const { width, height } = this.canvas;
+    pen.clearRect(0, 0, width, height);
     pen.fillStyle = 'rgb(30 32 37 / 0.92)';
     pen.beginPath();
-    pen.roundRect(0, 0, 512, 192, 40);
+    pen.roundRect(0, 0, width, height, 40);
     pen.fill();
+  }
+
+  dot(x: number, y: number, radius: number, color: string): void {
+    const pen = this.canvas.getContext('2d')!;
     pen.fillStyle = color;
     pen.beginPath();
-    pen.arc(70, 96, 34, 0, 7);
+    pen.arc(x, y, radius, 0, 7);
     pen.fill();
     pen.strokeStyle = 'rgb(255 255 255 / 0.4)';
     pen.lineWidth = 3;
     pen.stroke();
-    pen.fillStyle = '#fff';
-    pen.font = '600 44px system-ui, sans-serif';
-    pen.fillText(title, 130, 88, 360);
-    pen.fillStyle = '#b9bbc0';
-    pen.font = '36px system-ui, sans-serif';
-    pen.fillText(second, 130, 140, 360);
+  }
+
+  line(text: string, x: number, y: number, size: number, color: string, most: number): void {
+    const pen = this.canvas.getContext('2d')!;
+    pen.fillStyle = color;
+    pen.font = `600 ${size}px system-ui, sans-serif`;
+    pen.fillText(text, x, y, most);
+  }
+
+  done(): void {
     this.texture.needsUpdate = true;
   }
 }

@@ -1,4 +1,4 @@
-import { clampRadius, kInks, kLeastRadius_m, kMostRadius_m, type Settings, type Tool } from '../settings';
+import { kInks, kLeastEraser_m, kLeastRadius_m, kMostEraser_m, kMostRadius_m, resized, type Settings, type Tool } from '../settings';
 import type { Studio } from '../studio';
 import { h, icon, kIcons } from './dom';
 
@@ -34,8 +34,12 @@ function radio<T>(label: string, className: string, options: readonly { value: T
   };
 }
 
-/** The slider runs evenly in the logarithm of the size. */
-const kSpan = Math.log(kMostRadius_m / kLeastRadius_m);
+/** What the slider is for: the ink, or the eraser. It runs evenly in the logarithm of the size. */
+function sizeOf({ tool, style, eraser_m }: Settings): { now: number; least: number; span: number; title: string } {
+  return tool === 'draw'
+    ? { now: style.radius_m, least: kLeastRadius_m, span: Math.log(kMostRadius_m / kLeastRadius_m), title: 'Thickness of the ink' }
+    : { now: eraser_m, least: kLeastEraser_m, span: Math.log(kMostEraser_m / kLeastEraser_m), title: 'Size of the eraser' };
+}
 
 /** Tools, colours, size, and a sheet with what is needed less often. */
 export function dock(studio: Studio): HTMLElement[] {
@@ -51,9 +55,12 @@ export function dock(studio: Studio): HTMLElement[] {
   const preview = h('i');
   const slider = h('input', {
     type: 'range', min: 0, max: 100, step: 1, 'aria-label': 'Thickness of the ink',
-    oninput: () => set({ style: { ...studio.settings.style, radius_m: clampRadius(kLeastRadius_m * Math.exp((kSpan * slider.valueAsNumber) / 100)) } }),
+    oninput: () => {
+      const { now, least, span } = sizeOf(studio.settings);
+      set(resized(studio.settings, (least / now) * Math.exp((span * slider.valueAsNumber) / 100)));
+    },
   });
-  const size = h('label', { class: 'size', title: 'Thickness ([ and ])' }, h('span', { class: 'preview' }, preview), slider);
+  const size = h('label', { class: 'size', title: 'Size of ink or eraser ([ and ])' }, h('span', { class: 'preview' }, preview), slider);
   const more = h('button', { class: 'button', type: 'button', popovertarget: 'pen-panel', title: 'Symmetry, pen and hand', 'aria-label': 'Symmetry, pen and hand' }, icon(kIcons.mirror));
   const bar = h('div', { id: 'dock', class: 'panel', role: 'toolbar', 'aria-label': 'Drawing' }, tools.element, h('i', { class: 'divider' }), inks.element, h('i', { class: 'divider' }), size, more);
 
@@ -62,8 +69,8 @@ export function dock(studio: Studio): HTMLElement[] {
     { value: 'y', title: 'Symmetry up and down', content: ['Y'] }, { value: 'z', title: 'Symmetry front and back', content: ['Z'] },
   ], (value) => set({ mirror: value }));
   const place = radio<Settings['penPlace']>('Pen on the screen', 'segments', [
-    { value: 'in front', title: 'The pen floats in front of the model', content: ['In front'] },
-    { value: 'on the surface', title: 'The pen touches the model', content: ['On the surface'] },
+    { value: 'under the pointer', title: 'Ink comes where the pointer is', content: ['Under it'] },
+    { value: 'on a plane', title: 'The pen moves on a plane in front of the model, like a hand in space', content: ['On a plane'] },
   ], (penPlace) => set({ penPlace }));
   const hand = radio<Settings['hand']>('Hand that draws in a headset', 'segments', [
     { value: 'left', title: 'Left hand', content: ['Left'] }, { value: 'right', title: 'Right hand', content: ['Right'] },
@@ -71,8 +78,9 @@ export function dock(studio: Studio): HTMLElement[] {
   const lift = h('input', { type: 'range', min: -5, max: 20, step: 0.5, 'aria-label': 'Height of the ink above the surface, millimetres', oninput: () => set({ style: { ...studio.settings.style, offset_m: lift.valueAsNumber / 1000 } }) });
   const liftText = h('span');
   const field = (label: string, ...controls: Node[]): HTMLElement => h('div', { class: 'field' }, h('span', {}, label), ...controls);
+  const planeNote = h('p', { class: 'remarks' }, 'On a plane: the pen floats in front of the model, as a hand does in space, and the wheel moves it nearer or farther. It shows how techniques differ; ink is then not under the pointer.');
   const panel = h('div', { id: 'pen-panel', popover: 'auto', role: 'dialog', 'aria-label': 'Symmetry, pen and hand' },
-    field('Symmetry', mirror.element), field('Pen', place.element), field('Ink height', lift, liftText), field('Drawing hand (VR)', hand.element));
+    field('Symmetry', mirror.element), field('Pen and pointer', place.element), planeNote, field('Ink height', lift, liftText), field('Drawing hand (VR)', hand.element));
 
   studio.state.watch(({ settings }) => {
     tools.show(settings.tool);
@@ -81,12 +89,14 @@ export function dock(studio: Studio): HTMLElement[] {
     place.show(settings.penPlace);
     hand.show(settings.hand);
     more.setAttribute('aria-pressed', String(settings.mirror !== null));
-    const at = String(Math.round((100 * Math.log(settings.style.radius_m / kLeastRadius_m)) / kSpan));
+    const shown = sizeOf(settings);
+    const at = String(Math.round((100 * Math.log(shown.now / shown.least)) / shown.span));
     if (slider.value !== at) slider.value = at;
-    slider.setAttribute('aria-valuetext', `${(2000 * settings.style.radius_m).toFixed(1)} millimetres`);
-    const px = 2 * Math.sqrt(settings.style.radius_m / kMostRadius_m) * 11;
+    slider.setAttribute('aria-label', shown.title);
+    slider.setAttribute('aria-valuetext', `${(2000 * shown.now).toFixed(1)} millimetres`);
+    const px = 22 * Math.sqrt(shown.now / (shown.least * Math.exp(shown.span)));
     preview.style.width = preview.style.height = `${px.toFixed(1)}px`;
-    preview.style.color = settings.style.color;
+    preview.style.color = settings.tool === 'draw' ? settings.style.color : 'currentColor';
     lift.value = String(1000 * settings.style.offset_m);
     liftText.textContent = `${(1000 * settings.style.offset_m).toFixed(1)} mm`;
   });

@@ -2,21 +2,21 @@ import { h, icon, kIcons } from './dom';
 
 const kHelp: readonly { title: string; rows: readonly [string[], string][] }[] = [
   { title: 'Mouse', rows: [
-    [['drag on the model'], 'draw, or erase'], [['drag beside it'], 'turn the view'], [['right-drag', 'Space + drag'], 'turn the view'],
-    [['middle-drag', 'Shift + drag'], 'move the view'], [['wheel'], 'zoom; while drawing: pen nearer or farther'],
+    [['drag on the model'], 'draw, or erase'], [['drag beside it'], 'turn the view'], [['right-drag', 'Alt, Ctrl or Space + drag'], 'turn the view, anywhere'],
+    [['middle-drag', 'Shift + drag'], 'move the view'], [['wheel'], 'zoom at the pointer; with the pen on a plane, while drawing: nearer or farther'],
   ] },
   { title: 'Fingers and pen', rows: [
-    [['one finger on the model'], 'draw'], [['one finger beside it'], 'turn the view'], [['two fingers'], 'zoom and move'],
-    [['pen'], 'draws with pressure and tilt; fingers then only navigate'],
+    [['one finger on the model'], 'draw'], [['one finger beside it'], 'turn the view'], [['two fingers together'], 'turn the view, anywhere'], [['two fingers apart'], 'zoom, turn and move the picture'], [['three fingers'], 'move the view'], [['tap with two'], 'undo; with three: redo'],
+    [['pen'], 'draws with its pressure; its other end erases; fingers then only navigate'],
   ] },
   { title: 'Keyboard', rows: [
-    [['D'], 'draw'], [['E'], 'erase curves'], [['R'], 'erase parts'], [['1', '…', '8'], 'colour'], [['[', ']'], 'thinner, thicker'], [['T'], 'techniques'], [['C'], 'compare'],
-    [['M'], 'symmetry'], [['P'], 'pen in front, on the surface'], [['F'], 'show the whole model'], [['Arrows'], 'turn the view'], [['+', '−'], 'zoom'],
-    [['Ctrl Z'], 'undo'], [['Ctrl Shift Z'], 'redo'], [['Ctrl O'], 'open'], [['Ctrl S'], 'save'], [['Enter'], 'draw from the keyboard: arrows move the pen, Enter ends'], [['?'], 'this help'],
+    [['D'], 'draw'], [['E'], 'erase curves'], [['R'], 'erase parts'], [['1', '…', '8'], 'colour'], [['[', ']'], 'ink or eraser smaller, larger'], [['T'], 'techniques'], [['C'], 'compare'],
+    [['M'], 'symmetry'], [['P'], 'pen under the pointer, on a plane'], [['F'], 'show the whole model'], [['Arrows'], 'turn the view'], [['+', '−'], 'zoom'],
+    [['Ctrl Z'], 'undo'], [['Ctrl Shift Z'], 'redo'], [['Ctrl O'], 'open'], [['Ctrl S'], 'save'], [['Esc'], 'drop the stroke'], [['Enter'], 'draw from the keyboard: arrows move the pen, Enter ends'], [['?'], 'this help'],
   ] },
   { title: 'Headset', rows: [
     [['trigger'], 'draw, or erase'], [['squeeze, other hand'], 'hold the model, also while drawing'], [['both squeezes'], 'turn and scale'],
-    [['thumbstick ↕'], 'thickness'], [['thumbstick ↔'], 'technique; other hand: one to compare with'], [['thumbstick pressed'], 'draw, erase curves, erase parts'], [['B or Y'], 'undo'], [['A or X'], 'colour'],
+    [['thumbstick ↕'], 'thickness'], [['thumbstick ↔'], 'technique; other hand: one to compare with'], [['thumbstick pressed'], 'draw, erase curves, erase parts'], [['A or X'], 'colour; other hand: symmetry'], [['B or Y'], 'undo; other hand: redo'],
   ] },
 ];
 

@@ -1,8 +1,8 @@
 /** A sentence a technique, for someone who has never read of it. */
-export const kTechniqueText: Record<string, { title: string; sentence: string }> = {
+export const kTechniqueText: Record<string, { title: string; sentence: string; onScreens?: string }> = {
   'mimicry-live': { title: 'Mimicry live', sentence: 'Follows your hand smoothly, wherever you hold it. Works at once.' },
   mimicry: { title: 'Mimicry', sentence: 'Follows your hand through smooth closest points.' },
-  'mimicry-planar': { title: 'Mimicry planar', sentence: 'Follows your hand within the plane of your last two motions.' },
+  'mimicry-planar': { title: 'Mimicry planar', sentence: 'Follows your hand within the plane of your last two motions.', onScreens: 'it needs a hand that moves in space, and a pen on a screen hardly does' },
   'mimicry-offset': { title: 'Mimicry offset', sentence: 'Follows your hand but for motion toward the surface, seen from the pen.' },
   'mimicry-parallel': { title: 'Mimicry parallel', sentence: 'Follows your hand but for motion toward the surface, seen from the ink.' },
   'anchored-closest': { title: 'Anchored closest', sentence: 'Carries the motion of your hand to the ink, then takes the closest point.' },
@@ -10,10 +10,17 @@ export const kTechniqueText: Record<string, { title: string; sentence: string }>
   'anchored-ray-transport': { title: 'Anchored ray, transport', sentence: 'Moves with your hand, and the ray to the surface turns with it.' },
   spraycan: { title: 'Spraycan', sentence: 'Sprays along the direction in which you point, like a can of paint.' },
   occlude: { title: 'Occlude', sentence: 'Draws on what the pen hides from your eye.' },
-  'head-centric': { title: 'Head-centric', sentence: 'Draws where your head looks, whatever the hand does.' },
+  'head-centric': { title: 'Head-centric', sentence: 'Draws where your head looks, whatever the hand does. On a screen you look where the pointer is.', onScreens: 'it needs a head that moves' },
   snap: { title: 'Snap', sentence: 'Draws at the closest point of the model to the pen.' },
   'snap-smooth': { title: 'Snap smooth', sentence: 'Draws at the smooth closest point to the pen: no jumps at ridges.' },
 };
+
+/** What to say where a stroke on a screen left little ink. */
+export function littleInk(technique: string): string {
+  const text = kTechniqueText[technique];
+  const why = text?.onScreens ?? 'it did not follow this motion';
+  return `${text?.title ?? technique} drew little of this stroke: ${why}. Draw in a headset, or choose another technique.`;
+}
 
 /** The order in which they are offered; what is not named follows. */
 export const kTechniqueOrder = Object.keys(kTechniqueText);

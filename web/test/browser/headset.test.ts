@@ -226,6 +226,99 @@ describe('a headset', () => {
     await expect.poll(() => page.$eval('canvas', (canvas) => [canvas.width, canvas.height])).toEqual([kWindow.width, kWindow.height]);
   });
 
+  it('leaving it brings back window, camera and picture, also where the model was moved or the window resized', async () => {
+    await page.evaluate(() => window.studio.xr.exit());
+    await page.waitForFunction(() => !window.studio.stage.renderer.xr.isPresenting);
+    const seen = (): Promise<{ aspect: number; fov: number; position: number[]; model: number[]; projection: number[]; size: number[] }> => page.evaluate(() => {
+      const { camera: c, renderer } = window.studio.stage;
+      return {
+        aspect: c.aspect, fov: c.fov, position: c.position.toArray().map((v) => Math.round(1e9 * v) / 1e9), model: [...window.studio.studio.state.now.modelToWorld],
+        projection: [...c.projectionMatrix.elements].map((v) => Math.round(1e9 * v) / 1e9), size: [renderer.domElement.width, renderer.domElement.height],
+      };
+    });
+    // A view that is not the first one.
+    const first = await seen();
+    await page.evaluate(() => { window.studio.stage.rig.orbit(0.7, 0.2); window.studio.stage.rig.zoom(0.8); window.studio.stage.invalidate(); });
+    await expect.poll(async () => (await seen()).position).not.toEqual(first.position);
+    const before = await seen();
+    await enter();
+    await draw();
+    await page.evaluate(() => {
+      const a = window.headset.controllers.right!, b = window.headset.controllers.left!;
+      return window.drive(20, (i) => {
+        a.position.set(0.2 + 0.01 * i, 1.1, -0.3);
+        b.position.set(-0.2 - 0.01 * i, 1.1 + 0.01 * i, -0.3);
+        if (i === 2) { a.updateButtonValue('squeeze', 1); b.updateButtonValue('squeeze', 1); }
+        if (i === 16) { a.updateButtonValue('squeeze', 0); b.updateButtonValue('squeeze', 0); }
+      });
+    });
+    await page.evaluate(() => window.studio.xr.exit());
+    await expect.poll(seen).toEqual(before);
+    expect((await summary(page)).curves).toHaveLength(1);
+    // Something is seen, and it is drawn on.
+    await page.evaluate(() => window.studio.frameModel());
+    await page.evaluate(() => {
+      // On the canvas itself: the controls cover most of this window.
+      const send = (type: string, x: number): unknown => document.querySelector('canvas')!.dispatchEvent(new PointerEvent(type, { pointerId: 7, pointerType: 'mouse', button: type === 'pointermove' ? -1 : 0, buttons: type === 'pointerup' ? 0 : 1, clientX: x, clientY: 90 }));
+      for (const [type, x] of [['pointerdown', 118], ['pointermove', 121], ['pointermove', 124], ['pointerup', 124]] as const) send(type, x);
+    });
+    expect((await summary(page)).curves).toHaveLength(2);
+    await enter();
+    await page.setViewportSize({ width: 300, height: 200 });
+    await page.evaluate(() => window.studio.xr.exit());
+    await expect.poll(async () => (await seen()).size).toEqual([300, 200]);
+    expect((await seen()).aspect).toBeCloseTo(1.5, 12);
+    await page.setViewportSize(kWindow);
+    await expect.poll(async () => (await seen()).size).toEqual([kWindow.width, kWindow.height]);
+  });
+
+  it('has the model before the head, facing it, wherever that is', async () => {
+    await page.evaluate(() => window.studio.xr.exit());
+    await page.waitForFunction(() => !window.studio.stage.renderer.xr.isPresenting);
+    await page.evaluate(() => {
+      window.headset.position.set(1.5, 1.72, 0.8);
+      window.headset.quaternion.set(0, Math.sin(-Math.PI / 4), 0, Math.cos(-Math.PI / 4)); // to the right: along +x
+    });
+    await enter();
+    await page.evaluate(() => window.drive(4, () => undefined));
+    const stands = await page.evaluate(() => {
+      const { studio, view } = window.studio;
+      const centre = studio.centre();
+      const p = view.model.group.localToWorld(window.studio.stage.camera.position.clone().set(centre[0]!, centre[1]!, centre[2]!));
+      return { p: p.toArray(), turn: [...studio.state.now.modelToWorld.slice(0, 4)] };
+    });
+    await page.evaluate(() => { window.headset.position.set(0, 1.2, 0); window.headset.quaternion.set(0, 0, 0, 1); });
+    expect(stands.p[0]! - 1.5).toBeGreaterThan(0.35);
+    expect(stands.p[0]! - 1.5).toBeLessThan(1.25);
+    expect(Math.abs(stands.p[1]! - 1.72)).toBeLessThan(0.1);
+    expect(stands.p[2]!).toBeCloseTo(0.8, 6);
+    // The model's front, +z, looks back along -x.
+    const [, y, , w] = stands.turn as [number, number, number, number];
+    expect([2 * y * w, 1 - 2 * y * y]).toEqual([expect.closeTo(-1, 6), expect.closeTo(0, 6)]);
+  });
+
+  it('says how to draw until the first stroke, and has redo and symmetry on the other hand', async () => {
+    const hint = (): Promise<boolean> => page.evaluate(() => window.studio.xr.hands.hintVisible);
+    await page.evaluate(() => window.drive(2, () => undefined));
+    expect(await hint()).toBe(true);
+    await draw();
+    expect(await hint()).toBe(false);
+    const press = (hand: 'left' | 'right', button: string): Promise<void> => page.evaluate(([side, name]) => {
+      const c = window.headset.controllers[side as 'left' | 'right']!;
+      return window.drive(6, (i) => { if (i === 1) c.updateButtonValue(name!, 1); if (i === 3) c.updateButtonValue(name!, 0); });
+    }, [hand, button]);
+    await press('right', 'b-button');
+    expect(await summary(page)).toMatchObject({ curves: [], future: 1 });
+    await press('left', 'y-button');
+    expect((await summary(page)).curves).toHaveLength(1);
+    const settings = (): Promise<{ mirror: string | null; color: string }> => page.evaluate(() => ({ mirror: window.studio.studio.settings.mirror, color: window.studio.studio.settings.style.color }));
+    const before = await settings();
+    await press('left', 'x-button');
+    expect((await settings()).mirror).toBe('x');
+    await press('right', 'a-button');
+    expect((await settings()).color).not.toBe(before.color);
+  });
+
   it('that is denied is answered by a sentence', async () => {
     await page.evaluate(() => window.studio.xr.exit());
     await page.evaluate(() => {

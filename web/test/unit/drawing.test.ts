@@ -51,6 +51,20 @@ describe('erasing', () => {
     expect(erasePart(left, 5, 0, 0, 1.5)).toBe(left);
   });
 
+  it('meets the straight ink between two points that are far apart', () => {
+    expect(eraseCurve([line('a', 5)], 2.5, 0.1, 0, 0.2)).toEqual([]);
+    expect(erasePart([line('a', 9)], 4.4, 0.1, 0, 0.2)[0]!.kept).toEqual([[0, 3], [5, 8]]);
+    expect(erasePart([line('a', 9)], 4.6, 0.1, 0, 0.2)[0]!.kept).toEqual([[0, 4], [6, 8]]);
+  });
+
+  it('takes the other copies of a stroke where it is asked to, and those alone', () => {
+    const drawing = [line('a', 11), line('a/x', 11, 50), line('b', 11, 60)];
+    expect(erasePart(drawing, 5, 0, 0, 1.5, true).map((d) => d.kept)).toEqual([[[0, 3], [7, 10]], [[0, 3], [7, 10]], [[0, 10]]]);
+    expect(erasePart(drawing, 5, 0, 0, 1.5).map((d) => d.kept)).toEqual([[[0, 3], [7, 10]], [[0, 10]], [[0, 10]]]);
+    expect(eraseCurve(drawing, 5, 50, 0, 1, true).map((d) => d.id)).toEqual(['b']);
+    expect(eraseCurve(drawing, 5, 50, 0, 1).map((d) => d.id)).toEqual(['a', 'b']);
+  });
+
   it('everything of a curve takes it out', () => {
     expect(erasePart([line('a', 3)], 1, 0, 0, 5)).toEqual([]);
   });

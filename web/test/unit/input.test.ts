@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { kController, kHead, makeFrame } from '../../src/drawing/frame';
 import { Hysteresis } from '../../src/input/hysteresis';
-import { makeView, PlanePen, screenFrame } from '../../src/input/plane_pen';
+import { makeView, PlanePen, screenFrame } from '../../src/input/screen_frame';
 import { rotate } from '../../src/math/vec';
-import { clampRadius, kDefaults, readSettings, writeSettings } from '../../src/settings';
+import { clampRadius, kDefaults, readSettings, resized, writeSettings } from '../../src/settings';
 
 function towards(x: number, y: number): ReturnType<typeof makeView> {
   const view = makeView();
@@ -16,9 +16,9 @@ describe('the pen on a screen', () => {
   it('stays on a plane that faces the camera, the gap in front of what was pressed', () => {
     const pen = new PlanePen(), tip = new Float64Array(3);
     const view = towards(0.2, 0.1);
-    pen.press(view, 2, 0.25);
+    pen.press(view, 2, 100);
     pen.tip(tip, 0, view);
-    expect(Math.hypot(...tip)).toBeCloseTo(1.75, 12);
+    expect(Math.hypot(...tip)).toBeCloseTo(1.92, 12);
     const depth = tip[2];
     for (const [x, y] of [[0, 0], [-0.4, 0.3], [0.9, -0.9]] as const) {
       pen.tip(tip, 0, towards(x, y));
@@ -26,11 +26,31 @@ describe('the pen on a screen', () => {
     }
   });
 
-  it('never lands behind the eye', () => {
+  it('never lands behind the eye, however far the wheel brings it', () => {
     const pen = new PlanePen(), tip = new Float64Array(3);
     pen.press(towards(0, 0), 0.1, 5);
+    pen.wheel(1000);
     pen.tip(tip, 0, towards(0, 0));
     expect(tip[2]).toBeLessThan(0);
+  });
+
+  it('moves ink as fast in the window however near the model is looked at, and stays near a model that is far away', () => {
+    const pen = new PlanePen(), tip = new Float64Array(3);
+    for (const distance of [0.1, 0.4, 0.8]) {
+      pen.press(towards(0, 0), distance, 1);
+      pen.tip(tip, 0, towards(0, 0));
+      expect(-tip[2]! / distance).toBeCloseTo(0.96, 12);
+    }
+    pen.press(towards(0, 0), 20, 1);
+    pen.tip(tip, 0, towards(0, 0));
+    expect(20 + tip[2]!).toBeCloseTo(0.25, 12);
+  });
+
+  it('has a head that looks where the pointer is', () => {
+    const frame = makeFrame(), view = towards(0.3, -0.2), axis = [0, 0, 0];
+    screenFrame(frame, view, new Float64Array(3), 0, -1, 0, 0);
+    rotate(axis, 0, frame, kHead + 3, [0, 0, -1], 0);
+    for (let k = 0; k < 3; k += 1) expect(axis[k]).toBeCloseTo(view.direction[k]!, 12);
   });
 
   it('points along the ray, and leans with the pen', () => {
@@ -76,6 +96,17 @@ describe('settings', () => {
   it('survive a storage that is off', () => {
     expect(readSettings({ getItem: () => { throw new Error('denied'); } })).toEqual(kDefaults);
     expect(() => writeSettings({ setItem: () => { throw new Error('full'); } }, kDefaults)).not.toThrow();
+  });
+
+  it('of a page that drew on a plane by default draw under the pointer', () => {
+    expect(readSettings(storage('{"penPlace": "in front"}')).penPlace).toBe('under the pointer');
+    expect(readSettings(storage('{"penPlace": "on a plane"}')).penPlace).toBe('on a plane');
+  });
+
+  it('resizing is of the ink while drawing, else of the eraser, within what can be used', () => {
+    expect(resized(kDefaults, 2)).toEqual({ style: { ...kDefaults.style, radius_m: 2 * kDefaults.style.radius_m } });
+    expect(resized({ ...kDefaults, tool: 'erase curve' }, 2)).toEqual({ eraser_m: 2 * kDefaults.eraser_m });
+    expect(resized({ ...kDefaults, tool: 'erase part' }, 1e6).eraser_m).toBeLessThan(0.1);
   });
 
   it('radii are held within what can be drawn', () => {
