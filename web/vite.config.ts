@@ -5,7 +5,8 @@ const embeddings = new URL('./public/embeddings', import.meta.url);
 
 export default defineConfig({
   base: './',
-  // Its WebAssembly file lies beside its code.
+  // The WebAssembly in files of its own, which are compiled while they arrive and pass the server's policy (no workers from text).
+  resolve: { alias: [{ find: /^mimicry(\/bake)?$/, replacement: 'mimicry/split' }] },
   optimizeDeps: { exclude: ['mimicry'] },
   worker: { format: 'es' },
   build: { target: 'es2022', chunkSizeWarningLimit: 900 },

@@ -26,6 +26,11 @@ const kPointBytes = 12 * 8;
 export class Curve extends Handle {
   private cached: Ink | undefined;
 
+  /** @internal */
+  constructor(m: Module, pointer: Pointer) {
+    super(m, pointer, 'curve');
+  }
+
   protected override destroy(pointer: Pointer): void {
     this.m._mimicry_curve_destroy(pointer);
   }

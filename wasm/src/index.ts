@@ -1,18 +1,24 @@
+import { kCoreBuild } from './builds.js';
+import { coreWasm } from './core_files.js';
 import factory from './core.js';
-import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshReport, type ShapeInfo } from './mesh.js';
-import { instantiate, MimicryError, type Module, type WasmSource } from './module.js';
+import { MimicryError } from './error.js';
+import { compiled } from './load.js';
+import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshInput, type MeshReport, type ShapeInfo } from './mesh.js';
+import { instantiate, type Module } from './module.js';
 import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
 import { Target, type TargetOptions } from './target.js';
 import { techniqueList, type TechniqueInfo } from './technique.js';
+import type { Bytes, WasmSource } from './types.js';
 
 export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
 export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
-export type { MeshArrays, MeshFile, MeshReport, ShapeInfo } from './mesh.js';
-export { MimicryError, type Status, type WasmSource } from './module.js';
+export { MimicryError, type Status } from './error.js';
+export type { MeshArrays, MeshFile, MeshInput, MeshReport, ShapeInfo } from './mesh.js';
 export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, Session, type SessionOptions } from './session.js';
 export type { RecordedStroke } from './strokes.js';
 export { Target, type CurveFormat, type SurfaceHit, type TargetOptions } from './target.js';
 export type { TechniqueInfo, TechniqueOption } from './technique.js';
+export type { Bytes, Doubles, Integers, WasmSource } from './types.js';
 
 export interface MimicryOptions {
   /** The core's WebAssembly file; the package's own where nothing is given. */
@@ -33,7 +39,7 @@ export class Mimicry {
   private lists: { techniques: readonly TechniqueInfo[]; shapes: readonly ShapeInfo[] } | undefined;
 
   constructor(options: MimicryOptions = {}) {
-    this.ready = instantiate(factory, options.wasm ?? new URL('./core.wasm', import.meta.url)).then((m) => {
+    this.ready = compiled(options.wasm ?? coreWasm(), { name: 'core.wasm', build: kCoreBuild }).then((code) => instantiate(factory, code)).then((m) => {
       if (!this.disposed) this.module = m;
       return this;
     });
@@ -75,12 +81,12 @@ export class Mimicry {
   }
 
   /** What a mesh is and what is odd about it. */
-  validate(mesh: MeshArrays): MeshReport {
+  validate(mesh: MeshInput): MeshReport {
     return withMesh(this.m, mesh, '', (pointer) => meshReport(this.m, pointer));
   }
 
   /** name: stands in messages and in files. */
-  createTarget(mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: TargetOptions = {}): Target {
+  createTarget(mesh: MeshInput, name: string, options: TargetOptions = {}): Target {
     return Target.create(this.m, mesh, name, options);
   }
 
@@ -91,7 +97,7 @@ export class Mimicry {
   readStrokes(bytes: Uint8Array, name: string, onLeftOut?: (what: string) => void): RecordedStroke[] {
     return readStrokes(this.m, bytes, name, onLeftOut);
   }
-  writeStrokes(strokes: readonly RecordedStroke[]): Uint8Array<ArrayBuffer> { return writeStrokes(this.m, strokes); }
+  writeStrokes(strokes: readonly RecordedStroke[]): Bytes { return writeStrokes(this.m, strokes); }
 
   /** The core's memory in use, bytes. */
   get memoryBytes(): number { return this.m.HEAPU8.length; }

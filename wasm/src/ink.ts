@@ -21,8 +21,8 @@ export interface Ink {
 
 /** The module's own memory: new arrays only after it has moved or grown. */
 export class InkView implements Ink {
-  floats = new Float32Array(0);
-  integers = new Int32Array(0);
+  floats: Float32Array = new Float32Array(0);
+  integers: Int32Array = new Int32Array(0);
   count = 0;
   private at: Pointer = 0;
 

@@ -1,12 +1,33 @@
+import { MimicryError } from './error.js';
 import { Arguments, calling, check, made, textAt, type Module } from './module.js';
 import type { Pointer } from './exports.js';
+import type { Doubles, Integers } from './types.js';
+
+/** Triangles to draw on: `MeshArrays`, or any arrays of numbers, a geometry of three.js among them. */
+export interface MeshInput {
+  /** 3 a vertex. */
+  positions: ArrayLike<number>;
+  /** 3 vertex numbers a face, counter-clockwise seen from outside. */
+  faces: ArrayLike<number>;
+}
+
+/** As the core takes it. */
+export function meshInput({ positions, faces }: MeshInput): { positions: Float64Array; faces: Int32Array } {
+  for (const [what, array] of [['positions', positions], ['faces', faces]] as const)
+    if (typeof array?.length !== 'number' || array.length % 3 !== 0)
+      throw new MimicryError('invalid_input', `a mesh takes an array of 3 numbers ${what === 'faces' ? 'a face' : 'a vertex'} as its ${what}, not ${array?.length === undefined ? String(array) : `${array.length} numbers`}`);
+  return {
+    positions: positions instanceof Float64Array ? positions : Float64Array.from(positions),
+    faces: faces instanceof Int32Array ? faces : Int32Array.from(faces),
+  };
+}
 
 /** Triangles as plain arrays, that can be transferred from thread to thread. */
 export interface MeshArrays {
   /** 3 a vertex, the file's own coordinates and units. */
-  positions: Float64Array<ArrayBuffer>;
+  positions: Doubles;
   /** 3 vertex numbers a face, counter-clockwise seen from outside. */
-  faces: Int32Array<ArrayBuffer>;
+  faces: Integers;
   /** The size at which it is suggested to be shown: a shape's own, or 0.6 m across the bounding box. */
   metresPerUnit: number;
 }
@@ -89,9 +110,10 @@ export function meshArrays(m: Module, call: (args: Arguments, out: Pointer) => n
 }
 
 /** Runs a body with the mesh in the module's memory. */
-export function withMesh<T>(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, body: (pointer: Pointer) => T): T {
+export function withMesh<T>(m: Module, mesh: MeshInput, name: string, body: (pointer: Pointer) => T): T {
+  const { positions, faces } = meshInput(mesh);
   const pointer = made(m, (args, out) =>
-    m._mimicry_mesh_create(args.put(mesh.positions), mesh.positions.length / 3, args.put(mesh.faces), mesh.faces.length / 3, args.put(name), out));
+    m._mimicry_mesh_create(args.put(positions), positions.length / 3, args.put(faces), faces.length / 3, args.put(name), out));
   try {
     return body(pointer);
   } finally {

@@ -1,76 +1,42 @@
+import { messageOf, MimicryError, type Status } from './error.js';
 import type { Exports, Pointer } from './exports.js';
-
-/** Where a WebAssembly file comes from; the package's own, next to its code, where nothing is given. */
-export type WasmSource = string | URL | Response | BufferSource | WebAssembly.Module;
+import type { Bytes, Doubles, Integers } from './types.js';
 
 /** Emscripten's module. Its views are new objects after memory has grown: they are looked up at each use. */
 export interface Module extends Exports {
-  HEAPU8: Uint8Array<ArrayBuffer>;
-  HEAP32: Int32Array<ArrayBuffer>;
-  HEAPU32: Uint32Array<ArrayBuffer>;
-  HEAPF32: Float32Array<ArrayBuffer>;
-  HEAPF64: Float64Array<ArrayBuffer>;
+  HEAPU8: Bytes;
+  HEAP32: Integers;
+  HEAPU32: ReturnType<typeof Uint32Array.of>;
+  HEAPF32: ReturnType<typeof Float32Array.of>;
+  HEAPF64: Doubles;
   _malloc(size: number): Pointer;
   _free(pointer: Pointer): void;
 }
 
 export interface ModuleHooks {
-  instantiateWasm(imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void): object;
+  instantiateWasm(imports: any, done: (instance: any) => void): object;
   onBakeProgress?(stage: string, fraction: number): number;
 }
 
 /** What emscripten's glue exports. */
 export type Factory = (hooks: ModuleHooks) => Promise<Module>;
 
-export type Status =
-  | 'invalid_input' | 'io' | 'unsupported' | 'cancelled' | 'out_of_memory' | 'failed' | 'disposed';
 const kStatus: readonly Status[] = ['failed', 'invalid_input', 'io', 'unsupported', 'cancelled', 'out_of_memory', 'failed'];
 
-/** The message is a sentence that names the thing, the place and the remedy. */
-export class MimicryError extends Error {
-  override readonly name = 'MimicryError';
-  constructor(readonly status: Status, message: string) {
-    super(message);
-  }
-}
-
-const isNode = typeof process !== 'undefined' && process.versions?.node !== undefined;
-
-async function compiled(source: WasmSource): Promise<WebAssembly.Module> {
-  if (source instanceof WebAssembly.Module) return source;
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source as BufferSource);
-  if (typeof source === 'string' || source instanceof URL) {
-    const url = new URL(source, import.meta.url);
-    if (isNode && url.protocol === 'file:') {
-      // Not a text that a bundler for pages would follow.
-      const files = ['node:fs', 'promises'].join('/');
-      const { readFile } = (await import(/* @vite-ignore */ files)) as typeof import('node:fs/promises');
-      return WebAssembly.compile(await readFile(url));
-    }
-    return arriving(await fetch(url));
-  }
-  return arriving(source as Response);
-}
-
-async function arriving(response: Response): Promise<WebAssembly.Module> {
-  if (!response.ok) throw new MimicryError('io', `${response.url}: the server answers ${response.status} ${response.statusText}; is the file beside the package's code?`);
-  // Compiling while it arrives needs the right content type; not every server sends it.
-  if (response.headers.get('content-type') === 'application/wasm') return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
-}
-
-/** A module ready for use. */
-export async function instantiate(factory: Factory, source: WasmSource, onBakeProgress?: ModuleHooks['onBakeProgress']): Promise<Module> {
-  const code = await compiled(source);
+/** A module ready for use. code: a `WebAssembly.Module`. */
+export async function instantiate(factory: Factory, code: object, onBakeProgress?: ModuleHooks['onBakeProgress']): Promise<Module> {
   return new Promise<Module>((resolve, reject) => {
+    const refuse = (error: unknown) => reject(error instanceof RangeError
+      ? new MimicryError('out_of_memory', `there is no memory left to start WebAssembly (${messageOf(error)}); close other pages`)
+      : new MimicryError('failed', `WebAssembly could not be started: ${messageOf(error)}`));
     const hooks: ModuleHooks = {
       instantiateWasm(imports, done) {
-        WebAssembly.instantiate(code, imports).then(done, reject);
+        WebAssembly.instantiate(code as WebAssembly.Module, imports).then(done, refuse);
         return {};
       },
     };
     if (onBakeProgress) hooks.onBakeProgress = onBakeProgress;
-    factory(hooks).then(resolve, reject);
+    factory(hooks).then(resolve, refuse);
   });
 }
 
@@ -134,7 +100,7 @@ export function made(m: Module, call: (args: Arguments, out: Pointer) => number)
 }
 
 /** The content of a mimicry_bytes, copied; the object is destroyed. */
-export function takeBytes(m: Module, bytes: Pointer): Uint8Array<ArrayBuffer> {
+export function takeBytes(m: Module, bytes: Pointer): Bytes {
   const data = m._mimicry_bytes_data(bytes);
   const copy = m.HEAPU8.slice(data, data + m._mimicry_bytes_size(bytes));
   m._mimicry_bytes_destroy(bytes);
@@ -143,11 +109,12 @@ export function takeBytes(m: Module, bytes: Pointer): Uint8Array<ArrayBuffer> {
 
 /** Something in the module's memory that is given back once. */
 export abstract class Handle {
-  constructor(protected readonly m: Module, private pointer: Pointer) {}
+  /** kind: for messages; names of classes do not outlive minifiers. */
+  constructor(protected readonly m: Module, private pointer: Pointer, private readonly kind: string) {}
 
   /** @internal */
   get at(): Pointer {
-    if (this.pointer === 0) throw new MimicryError('disposed', `a ${this.constructor.name} was used after dispose()`);
+    if (this.pointer === 0) throw new MimicryError('disposed', `a ${this.kind} was used after dispose()`);
     return this.pointer;
   }
 

@@ -1,7 +1,8 @@
 import { Curve } from './curve.js';
 import type { Pointer } from './exports.js';
 import { InkView, type Ink } from './ink.js';
-import { calling, check, Handle, made, MimicryError, type Module } from './module.js';
+import { MimicryError } from './error.js';
+import { calling, check, Handle, made, type Module } from './module.js';
 
 /**
  * Numbers of a frame: time in seconds, head position (3) and orientation (4: x, y, z, w), controller
@@ -33,7 +34,7 @@ export class Session extends Handle {
   private readonly room: Pointer; // a frame, then its status
 
   constructor(m: Module, pointer: Pointer, readonly technique: string, options: SessionOptions) {
-    super(m, pointer);
+    super(m, pointer, 'session');
     this.room = m._malloc(8 * kFrameSize + 8);
     try {
       for (const [name, value] of Object.entries(options.options ?? {})) this.setOption(name, typeof value === 'number' ? [value] : value);

@@ -1,4 +1,5 @@
 import { calling, check, made, takeBytes, textAt, type Module } from './module.js';
+import type { Bytes } from './types.js';
 import { kFrameSize, kSimilaritySize } from './session.js';
 
 /** A recorded stroke: what the devices did, on one target. */
@@ -39,7 +40,7 @@ export function readStrokes(m: Module, bytes: Uint8Array, name: string, onLeftOu
   }
 }
 
-export function writeStrokes(m: Module, list: readonly RecordedStroke[]): Uint8Array<ArrayBuffer> {
+export function writeStrokes(m: Module, list: readonly RecordedStroke[]): Bytes {
   const strokes = made(m, (_, out) => m._mimicry_strokes_create(out));
   try {
     for (const s of list)

@@ -1,8 +1,9 @@
 import { Curve } from './curve.js';
 import type { Pointer } from './exports.js';
-import { meshReport, withMesh, type MeshArrays, type MeshReport } from './mesh.js';
+import { meshReport, withMesh, type MeshInput, type MeshReport } from './mesh.js';
 import { check, Handle, made, takeBytes, textAt, type Module } from './module.js';
 import { Session, type SessionOptions } from './session.js';
+import type { Bytes } from './types.js';
 
 /** A point on a target, model space; one object that the target's next query writes over. */
 export interface SurfaceHit {
@@ -44,12 +45,12 @@ export class Target extends Handle {
 
   /** @internal */
   constructor(m: Module, pointer: Pointer, readonly name: string, readonly report: MeshReport, private readonly vertexCount: number) {
-    super(m, pointer);
+    super(m, pointer, 'target');
     this.room = m._malloc(kQueryBytes + kPointBytes);
   }
 
   /** @internal */
-  static create(m: Module, mesh: Pick<MeshArrays, 'positions' | 'faces'>, name: string, options: TargetOptions): Target {
+  static create(m: Module, mesh: MeshInput, name: string, options: TargetOptions): Target {
     return withMesh(m, mesh, name, (pointer) => {
       const target = made(m, (args, out) =>
         m._mimicry_target_make(pointer, args.put(Int32Array.of(options.join === false ? 0 : 1, options.strict ? 1 : 0)), out));
@@ -142,7 +143,7 @@ export class Target extends Handle {
   }
 
   /** A file of curves on this target. colors: 3 a curve, sRGB (PLY and GLB). tubeRadius: model units; of curves without radii of their own (PLY and GLB). */
-  writeCurves(curves: readonly Curve[], format: CurveFormat, colors = new Uint8Array(3 * curves.length), tubeRadius = 0.003 * this.diagonal): Uint8Array<ArrayBuffer> {
+  writeCurves(curves: readonly Curve[], format: CurveFormat, colors: Uint8Array = new Uint8Array(3 * curves.length), tubeRadius = 0.003 * this.diagonal): Bytes {
     const m = this.m;
     return takeBytes(m, made(m, (args, out) =>
       m._mimicry_curves_write(this.at, args.put(this.name), args.put(Int32Array.from(curves, (c) => c.at)), curves.length,
