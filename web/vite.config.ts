@@ -1,6 +1,9 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { defineConfig } from 'vite';
 
+if (!existsSync(new URL('../wasm/dist/split.js', import.meta.url)))
+  throw new Error('wasm/dist is missing or of an earlier version; in the repository\'s root: scripts/setup; cmake --preset wasm; cmake --build --preset wasm --target wasm_package');
+
 const embeddings = new URL('./public/embeddings', import.meta.url);
 
 export default defineConfig({
