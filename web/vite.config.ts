@@ -1,5 +1,6 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { defineConfig } from 'vite';
+import { offline } from './scripts/offline';
 
 if (!existsSync(new URL('../wasm/dist/split.js', import.meta.url)))
   throw new Error('wasm/dist is missing or of an earlier version; in the repository\'s root: scripts/setup; cmake --preset wasm; cmake --build --preset wasm --target wasm_package');
@@ -8,6 +9,7 @@ const embeddings = new URL('./public/embeddings', import.meta.url);
 
 export default defineConfig({
   base: './',
+  plugins: [offline()],
   // The WebAssembly in files of its own, which are compiled while they arrive and pass the server's policy (no workers from text).
   resolve: { alias: [{ find: /^mimicry(\/bake)?$/, replacement: 'mimicry/split' }] },
   optimizeDeps: { exclude: ['mimicry'] },

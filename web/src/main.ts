@@ -1,5 +1,6 @@
 import { Mimicry } from 'mimicry';
 import { App } from './app';
+import { keepOffline } from './offline/register';
 import { NoGraphics } from './scene/stage';
 
 const root = document.getElementById('studio')!;
@@ -25,6 +26,7 @@ async function main(): Promise<void> {
     // For tests and the curious.
     Object.assign(window, { studio: app });
     document.documentElement.dataset['ready'] = 'true';
+    void keepOffline(() => app.ui.messages.offer('A newer studio is there.', { title: 'Reload', act: () => location.reload() }));
   } catch (error) {
     const sentence = error instanceof NoGraphics ? error.message
       : `The studio could not start: ${error instanceof Error ? error.message : String(error)}. Reload the page; if that does not help, use a current browser.`;

@@ -30,13 +30,24 @@ export class Messages {
   problem(text: string, remedy: Remedy | null = null): void {
     for (const other of this.element.querySelectorAll('.problem p')) if (other.textContent === text) return;
     const element = this.add(text, 'problem', remedy && this.button(remedy, () => undefined),
-      h('button', { class: 'button', type: 'button', 'aria-label': 'Close this message', onclick: () => element.remove() }, icon(kIcons.close)));
+      this.closing(() => element.remove()));
+  }
+
+  /** Something that can be had when it suits; stays until it is taken or closed. */
+  offer(text: string, remedy: Remedy): void {
+    for (const other of this.element.querySelectorAll('.standing p')) if (other.textContent === text) return;
+    const close = this.standing(text, remedy);
+    this.element.lastElementChild!.append(this.closing(close));
   }
 
   /** A sentence that holds until the function that it returns is called. */
   standing(text: string, remedy: Remedy): () => void {
     const element = this.add(text, 'standing', this.button(remedy, () => undefined));
     return () => element.remove();
+  }
+
+  private closing(close: () => void): HTMLElement {
+    return h('button', { class: 'button', type: 'button', 'aria-label': 'Close this message', onclick: () => close() }, icon(kIcons.close));
   }
 
   private button({ title, act }: Remedy, then: () => void): HTMLElement {

@@ -5,13 +5,15 @@ import { createGzip } from 'node:zlib';
 
 const kTypes: Record<string, string> = {
   '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml',
-  '.mimicry': 'application/octet-stream',
+  '.mimicry': 'application/octet-stream', '.webmanifest': 'application/manifest+json', '.png': 'image/png',
 };
 
 export interface Served {
   url: string;
   /** Bytes that went over the wire, gzipped. */
   sent(): number;
+  /** Another folder from now on. */
+  move(folder: string): void;
   close(): void;
 }
 
@@ -33,5 +35,13 @@ export async function serve(folder = resolve('dist')): Promise<Served> {
   await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
   const address = server.address();
   if (address === null || typeof address === 'string') throw new Error('no port');
-  return { url: `http://127.0.0.1:${address.port}/`, sent: () => sent, close: () => server.close() };
+  return {
+    url: `http://127.0.0.1:${address.port}/`,
+    sent: () => sent,
+    move: (to) => (folder = to),
+    close() {
+      server.close();
+      server.closeAllConnections();
+    },
+  };
 }

@@ -43,7 +43,7 @@ export class Lab {
   /** The studio, ready to be drawn in. prepare: before the page's own code runs. */
   async open(options: BrowserContextOptions & { query?: string; prepare?: (page: Page) => Promise<void> } = {}): Promise<Opened> {
     const { query = '', prepare, ...rest } = options;
-    const context = await this.browser.newContext({ viewport: kWindow, deviceScaleFactor: 1, colorScheme: 'light', acceptDownloads: true, ...rest });
+    const context = await this.browser.newContext({ viewport: kWindow, deviceScaleFactor: 1, colorScheme: 'light', acceptDownloads: true, serviceWorkers: 'block', ...rest });
     const page = await context.newPage();
     const errors: string[] = [];
     page.on('pageerror', (error) => errors.push(String(error)));
