@@ -11,12 +11,8 @@ function pageBuild(): string {
  */
 export async function keepOffline(announce: () => void): Promise<void> {
   if (!pageBuild() || !('serviceWorker' in navigator)) return;
-  let registration: ServiceWorkerRegistration;
-  try {
-    registration = await navigator.serviceWorker.register('sw.js', { updateViaCache: 'none' });
-  } catch {
-    return;
-  }
+  const registration = await navigator.serviceWorker.register('sw.js', { updateViaCache: 'none' }).catch(() => null);
+  if (!registration) return; // forbidden
   const look = async (): Promise<void> => {
     const { waiting } = registration;
     if (!waiting) return;
