@@ -4,7 +4,7 @@ import { MimicryError } from './error.js';
 import { compiled } from './load.js';
 import { meshInput, type MeshInput } from './mesh.js';
 import type { AbortSignalLike, Bytes, WasmSource, WorkerLike } from './types.js';
-import { follow, startWorker } from './worker.js';
+import { follow, requireWorker, startWorker } from './worker.js';
 
 export { MimicryError } from './error.js';
 export type { BakeSettings } from './bake_run.js';
@@ -33,6 +33,7 @@ export async function bakeHere(mesh: MeshInput, options: BakeOptions = {}): Prom
 /** Bakes in a worker of its own, in pages, workers and Node. The mesh's arrays are copied. The content of a `.mimicry` file. */
 export async function bake(mesh: MeshInput, options: BakeJobOptions = {}): Promise<Bytes> {
   const { signal, worker: given } = options;
+  if (given) requireWorker(given);
   const cancelled = () => new MimicryError('cancelled', 'the bake was cancelled');
   let abort = () => {};
   const aborted = new Promise<never>((_, reject) => { abort = () => reject(cancelled()); });
@@ -50,4 +51,4 @@ export async function bake(mesh: MeshInput, options: BakeJobOptions = {}): Promi
 }
 
 /** What can be sent. */
-const settingsOf = ({ dimension, samples, offset }: BakeOptions): BakeSettings => JSON.parse(JSON.stringify({ dimension, samples, offset })) as BakeSettings;
+const settingsOf = ({ dimension, samples, offset }: BakeOptions): BakeSettings => ({ dimension, samples, offset }) as BakeSettings;

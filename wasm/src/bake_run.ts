@@ -1,5 +1,6 @@
 import factory from './bake_module.js';
 import { kBakeBuild } from './builds.js';
+import { givenCount } from './given.js';
 import type { WasmFile } from './load.js';
 import { withMesh, type MeshInput } from './mesh.js';
 import { calling, instantiate, made, takeBytes } from './module.js';
@@ -26,8 +27,8 @@ export async function runBake(code: object, mesh: MeshInput, settings: BakeSetti
     calling(m, (args) => {
       const chosen = args.room(32);
       m._mimicry_wasm_default_bake_options(chosen);
-      if (settings.dimension !== undefined) m.HEAP32[chosen >> 2] = settings.dimension;
-      if (settings.samples !== undefined) m.HEAP32[(chosen >> 2) + 1] = settings.samples;
+      if (settings.dimension !== undefined) m.HEAP32[chosen >> 2] = givenCount(settings.dimension, 'option dimension');
+      if (settings.samples !== undefined) m.HEAP32[(chosen >> 2) + 1] = givenCount(settings.samples, 'option samples');
       if (settings.offset !== undefined) m.HEAPF64[(chosen >> 3) + 1] = settings.offset;
       return takeBytes(m, made(m, (_, out) => m._mimicry_wasm_bake(pointer, chosen, out)));
     }));

@@ -1,4 +1,6 @@
+import { MimicryError } from './error.js';
 import type { Pointer } from './exports.js';
+import { givenCount, givenNumbers, givenText } from './given.js';
 import { copiedInk, type Ink } from './ink.js';
 import { calling, check, Handle, made, textAt, type Module } from './module.js';
 
@@ -48,7 +50,10 @@ export class Curve extends Handle {
     return this.cached;
   }
 
+  /** number: from 0. */
   point(number: number): CurvePoint {
+    if (!(givenCount(number, "a point's number") >= 0 && number < this.pointCount))
+      throw new MimicryError('invalid_input', `there is no point ${number} in a curve of ${this.pointCount} points`);
     return calling(this.m, (args) => {
       const at = args.room(kPointBytes);
       check(this.m, this.m._mimicry_curve_point_at(this.at, number, at));
@@ -72,9 +77,12 @@ export class Curve extends Handle {
   }
 
   /** Points [first, end), an open curve. */
-  slice(first: number, end: number): Curve { return this.edited((m, at, out) => m._mimicry_curve_slice(at, first, end, out)); }
+  slice(first: number, end: number): Curve {
+    const [from, to] = [givenCount(first, 'the first point'), givenCount(end, 'the end of the points')];
+    return this.edited((m, at, out) => m._mimicry_curve_slice(at, from, to, out));
+  }
   /** `count` points at equal steps of length. */
-  resample(count: number): Curve { return this.edited((m, at, out) => m._mimicry_curve_resample(at, count, out)); }
+  resample(count: number): Curve { return this.edited((m, at, out) => m._mimicry_curve_resample(at, givenCount(count, 'the number of points'), out)); }
   /** strength: 0 to 1. */
   smooth(strength = 0.5, iterations = 1): Curve { return this.edited((m, at, out) => m._mimicry_curve_smooth(at, strength, iterations, out)); }
   /** tolerance: model units. */
@@ -83,13 +91,15 @@ export class Curve extends Handle {
   close(): Curve { return this.edited((m, at, out) => m._mimicry_curve_close(at, out)); }
   /** A copy that bears another stroke's id. */
   withStroke(id: string): Curve {
-    return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_stroke(this.at, args.put(id), out)));
+    return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_stroke(this.at, args.put(givenText(id, "a stroke's id")), out)));
   }
 
   /** A copy whose tube is as thick as given at each point: one a point, model units, above 0. */
-  withRadii(radii: Float64Array): Curve {
-    if (radii.length !== this.pointCount) throw new RangeError(`${radii.length} radii for a curve of ${this.pointCount} points; give one for each`);
-    return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_radii(this.at, args.put(radii), out)));
+  withRadii(radii: ArrayLike<number>): Curve {
+    const numbers = givenNumbers(radii, 'radii');
+    if (numbers.length !== this.pointCount)
+      throw new MimicryError('invalid_input', `${numbers.length} radii for a curve of ${this.pointCount} points; give one for each`);
+    return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_radii(this.at, args.put(numbers), out)));
   }
 
   /** radius (of a curve without radii of its own) and lift (along the surface's normal): model units. */

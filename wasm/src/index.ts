@@ -2,6 +2,7 @@ import { kCoreBuild } from './builds.js';
 import { coreWasm } from './core_files.js';
 import factory from './core.js';
 import { MimicryError } from './error.js';
+import { givenBytes, givenCount, givenText } from './given.js';
 import { compiled } from './load.js';
 import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshInput, type MeshReport, type ShapeInfo } from './mesh.js';
 import { instantiate, type Module } from './module.js';
@@ -61,13 +62,15 @@ export class Mimicry {
   /** A built-in shape; resolution 0 for its default. */
   shape(name: string, resolution = 0): MeshArrays {
     const m = this.m;
-    return meshArrays(m, (args, out) => m._mimicry_mesh_shape(args.put(name), resolution, out));
+    return meshArrays(m, (args, out) =>
+      m._mimicry_mesh_shape(args.put(givenText(name, "a shape's name")), givenCount(resolution, "a shape's resolution"), out));
   }
 
   /** A file's content; the name's ending tells the format (.obj .ply .stl .off .glb .gltf). */
-  readMesh(bytes: Uint8Array, name: string): MeshArrays {
+  readMesh(bytes: Uint8Array | ArrayBuffer, name: string): MeshArrays {
     const m = this.m;
-    return meshArrays(m, (args, out) => m._mimicry_mesh_read(args.put(bytes), bytes.length, args.put(name), out));
+    const content = givenBytes(bytes, "a file's content");
+    return meshArrays(m, (args, out) => m._mimicry_mesh_read(args.put(content), content.length, args.put(givenText(name, "a file's name")), out));
   }
 
   /**
@@ -77,7 +80,7 @@ export class Mimicry {
   readMeshFiles(files: readonly MeshFile[], mesh?: string): MeshArrays {
     const m = this.m;
     return meshArrays(m, (args, out) =>
-      m._mimicry_mesh_read_files(putFiles(m, args, files), files.length, mesh === undefined ? 0 : args.put(mesh), out));
+      m._mimicry_mesh_read_files(putFiles(m, args, files), files.length, mesh === undefined ? 0 : args.put(givenText(mesh, "the mesh's name")), out));
   }
 
   /** What a mesh is and what is odd about it. */
@@ -86,15 +89,15 @@ export class Mimicry {
   }
 
   /** name: stands in messages and in files. */
-  createTarget(mesh: MeshInput, name: string, options: TargetOptions = {}): Target {
-    return Target.create(this.m, mesh, name, options);
+  createTarget(mesh: MeshInput, name = 'mesh', options: TargetOptions = {}): Target {
+    return Target.create(this.m, mesh, givenText(name, "a target's name"), options);
   }
 
   /**
    * The strokes of a mimicry-strokes file. One that cannot be used is left out, and onLeftOut is told where it stood and what is wrong
    * with it; without onLeftOut it refuses the file.
    */
-  readStrokes(bytes: Uint8Array, name: string, onLeftOut?: (what: string) => void): RecordedStroke[] {
+  readStrokes(bytes: Uint8Array | ArrayBuffer, name: string, onLeftOut?: (what: string) => void): RecordedStroke[] {
     return readStrokes(this.m, bytes, name, onLeftOut);
   }
   writeStrokes(strokes: readonly RecordedStroke[]): Bytes { return writeStrokes(this.m, strokes); }

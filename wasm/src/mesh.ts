@@ -1,4 +1,4 @@
-import { MimicryError } from './error.js';
+import { givenBytes, givenList, givenNumbers, givenText } from './given.js';
 import { Arguments, calling, check, made, textAt, type Module } from './module.js';
 import type { Pointer } from './exports.js';
 import type { Doubles, Integers } from './types.js';
@@ -12,14 +12,12 @@ export interface MeshInput {
 }
 
 /** As the core takes it. */
-export function meshInput({ positions, faces }: MeshInput): { positions: Float64Array; faces: Int32Array } {
-  for (const [what, array] of [['positions', positions], ['faces', faces]] as const)
-    if (typeof array?.length !== 'number' || array.length % 3 !== 0)
-      throw new MimicryError('invalid_input', `a mesh takes an array of 3 numbers ${what === 'faces' ? 'a face' : 'a vertex'} as its ${what}, not ${array?.length === undefined ? String(array) : `${array.length} numbers`}`);
-  return {
-    positions: positions instanceof Float64Array ? positions : Float64Array.from(positions),
-    faces: faces instanceof Int32Array ? faces : Int32Array.from(faces),
-  };
+export function meshInput(mesh: MeshInput): { positions: Float64Array; faces: Int32Array } {
+  const positions = givenNumbers(mesh?.positions, "the positions of a mesh's vertices", { per: 3 });
+  const faces: ArrayLike<number> = mesh.faces instanceof Int32Array && mesh.faces.length % 3 === 0
+    ? mesh.faces : givenNumbers(mesh.faces, "the vertex numbers of a mesh's faces", { per: 3 });
+  // Numbers that are no vertex's stay so: -1 is refused with the face's number.
+  return { positions, faces: faces instanceof Int32Array ? faces : Int32Array.from(faces, (v) => (Number.isInteger(v) && v < 2 ** 31 ? v : -1)) };
 }
 
 /** Triangles as plain arrays, that can be transferred from thread to thread. */
@@ -87,7 +85,10 @@ const kFileWords = 3; // name, data, size
 
 /** An array of mimicry_file. */
 export function putFiles(m: Module, args: Arguments, files: readonly MeshFile[]): Pointer {
-  const held = files.map(({ name, bytes }) => [args.put(name), args.put(bytes), bytes.length]);
+  const held = givenList(files, 'the files').map((file) => {
+    const bytes = givenBytes(file?.bytes, 'the content of a file');
+    return [args.put(givenText(file.name, "a file's name")), args.put(bytes), bytes.length];
+  });
   const at = args.room(4 * kFileWords * files.length);
   m.HEAPU32.set(held.flat(), at >> 2);
   return at;

@@ -51,7 +51,9 @@ export function textAt(m: Module, pointer: Pointer): string {
 
 export function check(m: Module, status: number): void {
   if (status === 0) return;
-  throw new MimicryError(kStatus[status] ?? 'failed', textAt(m, m._mimicry_last_error()));
+  // Functions of the C interface by their names here.
+  const message = textAt(m, m._mimicry_last_error()).replace('(mimicry_bake)', "with bake() of 'mimicry/bake'").replace('(mimicry_target_with_embedding)', 'with target.withEmbedding()');
+  throw new MimicryError(kStatus[status] ?? 'failed', message);
 }
 
 type Put = Uint8Array | Float64Array | Int32Array | string;
@@ -116,6 +118,12 @@ export abstract class Handle {
   get at(): Pointer {
     if (this.pointer === 0) throw new MimicryError('disposed', `a ${this.kind} was used after dispose()`);
     return this.pointer;
+  }
+
+  /** @internal Where it is in a core's memory. */
+  addressIn(m: Module): Pointer {
+    if (this.m !== m) throw new MimicryError('invalid_input', `a ${this.kind} of another Mimicry was given; use one Mimicry for all that belongs together`);
+    return this.at;
   }
 
   /** Gives its memory back; a second time does nothing. Must not be used afterwards. */

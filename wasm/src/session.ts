@@ -2,6 +2,7 @@ import { Curve } from './curve.js';
 import type { Pointer } from './exports.js';
 import { InkView, type Ink } from './ink.js';
 import { MimicryError } from './error.js';
+import { givenNumbers, givenText } from './given.js';
 import { calling, check, Handle, made, type Module } from './module.js';
 
 /**
@@ -37,7 +38,7 @@ export class Session extends Handle {
     super(m, pointer, 'session');
     this.room = m._malloc(8 * kFrameSize + 8);
     try {
-      for (const [name, value] of Object.entries(options.options ?? {})) this.setOption(name, typeof value === 'number' ? [value] : value);
+      for (const [name, value] of Object.entries(options.options ?? {})) this.setOption(name, value);
       if (options.splitAtMisses !== undefined) this.setSplitAtMisses(options.splitAtMisses);
       if (options.minimumMotion_m !== undefined) this.setMinimumMotion(options.minimumMotion_m);
     } catch (error) {
@@ -52,9 +53,10 @@ export class Session extends Handle {
   }
 
   /** From the next stroke on, as all settings. */
-  setOption(name: string, values: readonly number[]): void {
+  setOption(name: string, values: number | ArrayLike<number>): void {
+    const numbers = givenNumbers(typeof values === 'number' ? [values] : values, `option '${name}'`);
     calling(this.m, (args) =>
-      check(this.m, this.m._mimicry_session_set_option(this.at, args.put(name), args.put(Float64Array.from(values)), values.length)));
+      check(this.m, this.m._mimicry_session_set_option(this.at, args.put(givenText(name, "an option's name")), args.put(numbers), numbers.length)));
   }
   setSplitAtMisses(split: boolean): void {
     check(this.m, this.m._mimicry_session_set_split_at_misses(this.at, split ? 1 : 0));
@@ -64,14 +66,14 @@ export class Session extends Handle {
   }
 
   /** Starts a stroke; the last one's ink is forgotten. modelToWorld: `kSimilaritySize` numbers. */
-  begin(modelToWorld: Float64Array): void {
-    requireLength(modelToWorld, kSimilaritySize, 'a similarity');
-    calling(this.m, (args) => check(this.m, this.m._mimicry_session_begin(this.at, args.put(modelToWorld))));
+  begin(modelToWorld: ArrayLike<number>): void {
+    const placed = givenNumbers(modelToWorld, 'modelToWorld', { count: kSimilaritySize });
+    calling(this.m, (args) => check(this.m, this.m._mimicry_session_begin(this.at, args.put(placed))));
   }
 
   /** frame: `kFrameSize` numbers. Makes no objects. What became of it: `kInked` and so on. */
-  add(frame: Float64Array): number {
-    requireLength(frame, kFrameSize, 'a frame');
+  add(frame: ArrayLike<number>): number {
+    if (frame?.length !== kFrameSize) throw new MimicryError('invalid_input', `a frame must be ${kFrameSize} numbers, not ${frame?.length}`);
     this.m.HEAPF64.set(frame, this.room >> 3);
     const status = this.room + 8 * kFrameSize;
     check(this.m, this.m._mimicry_session_add(this.at, this.room, status));
@@ -93,13 +95,10 @@ export class Session extends Handle {
   }
 
   /** A whole recorded stroke at once; frames that cannot be used are an error here. frames: `kFrameSize` numbers each. */
-  project(modelToWorld: Float64Array, frames: Float64Array): Curve {
-    requireLength(modelToWorld, kSimilaritySize, 'a similarity');
+  project(modelToWorld: ArrayLike<number>, frames: ArrayLike<number>): Curve {
+    const placed = givenNumbers(modelToWorld, 'modelToWorld', { count: kSimilaritySize });
+    const numbers = givenNumbers(frames, 'frames', { per: kFrameSize });
     return new Curve(this.m, made(this.m, (args, out) =>
-      this.m._mimicry_session_project(this.at, args.put(modelToWorld), args.put(frames), Math.floor(frames.length / kFrameSize), out)));
+      this.m._mimicry_session_project(this.at, args.put(placed), args.put(numbers), numbers.length / kFrameSize, out)));
   }
-}
-
-function requireLength(array: Float64Array, length: number, what: string): void {
-  if (array.length !== length) throw new MimicryError('invalid_input', `${what} takes ${length} numbers, not ${array.length}`);
 }

@@ -1,5 +1,7 @@
 import { Curve } from './curve.js';
+import { MimicryError } from './error.js';
 import type { Pointer } from './exports.js';
+import { givenBytes, givenList, givenNumbers, givenText } from './given.js';
 import { meshReport, withMesh, type MeshInput, type MeshReport } from './mesh.js';
 import { check, Handle, made, takeBytes, textAt, type Module } from './module.js';
 import { Session, type SessionOptions } from './session.js';
@@ -131,29 +133,38 @@ export class Target extends Handle {
   }
 
   /** A new target: this one with its bake, the content of a `.mimicry` file that was made for the same mesh. */
-  withEmbedding(bytes: Uint8Array, name: string): Target {
+  withEmbedding(bytes: Uint8Array | ArrayBuffer, name = `${this.name}.mimicry`): Target {
+    const content = givenBytes(bytes, "a file's content");
     const pointer = made(this.m, (args, out) =>
-      this.m._mimicry_target_with_embedding(this.at, args.put(bytes), bytes.length, args.put(name), out));
+      this.m._mimicry_target_with_embedding(this.at, args.put(content), content.length, args.put(givenText(name, "a file's name")), out));
     return new Target(this.m, pointer, this.name, this.report, this.vertexCount);
   }
 
   session(technique: string, options: SessionOptions = {}): Session {
-    const pointer = made(this.m, (args, out) => this.m._mimicry_session_create(this.at, args.put(technique), out));
+    const pointer = made(this.m, (args, out) => this.m._mimicry_session_create(this.at, args.put(givenText(technique, "a technique's name")), out));
     return new Session(this.m, pointer, technique, options);
   }
 
   /** A file of curves on this target. colors: 3 a curve, sRGB (PLY and GLB). tubeRadius: model units; of curves without radii of their own (PLY and GLB). */
-  writeCurves(curves: readonly Curve[], format: CurveFormat, colors: Uint8Array = new Uint8Array(3 * curves.length), tubeRadius = 0.003 * this.diagonal): Bytes {
+  writeCurves(curves: readonly Curve[], format: CurveFormat, colors?: Uint8Array, tubeRadius = 0.003 * this.diagonal): Bytes {
     const m = this.m;
+    const pointers = Int32Array.from(givenList(curves, 'the curves'), (curve) => {
+      if (!(curve instanceof Curve)) throw new MimicryError('invalid_input', `the curves must be curves of this package, not ${String(curve)}`);
+      return curve.addressIn(m);
+    });
+    if (!kFormats.includes(format)) throw new MimicryError('invalid_input', `there is no format ${String(format)} for curves; choose one of ${kFormats.join(', ')}`);
+    const painted = Uint8Array.from(givenNumbers(colors ?? new Uint8Array(3 * curves.length), "the curves' colors", { count: 3 * curves.length }));
     return takeBytes(m, made(m, (args, out) =>
-      m._mimicry_curves_write(this.at, args.put(this.name), args.put(Int32Array.from(curves, (c) => c.at)), curves.length,
-        kFormats.indexOf(format), args.put(colors), tubeRadius, out)));
+      m._mimicry_curves_write(this.at, args.put(this.name), args.put(pointers), curves.length,
+        kFormats.indexOf(format), args.put(painted), tubeRadius, out)));
   }
 
   /** What `writeCurves` wrote as JSON, for the same mesh. */
-  readCurves(bytes: Uint8Array, name: string): Curve[] {
+  readCurves(bytes: Uint8Array | ArrayBuffer, name: string): Curve[] {
     const m = this.m;
-    const list = made(m, (args, out) => m._mimicry_curves_read(this.at, args.put(bytes), bytes.length, args.put(name), out));
+    const content = givenBytes(bytes, "a file's content");
+    const list = made(m, (args, out) =>
+      m._mimicry_curves_read(this.at, args.put(content), content.length, args.put(givenText(name, "a file's name")), out));
     try {
       return Array.from({ length: m._mimicry_curve_list_count(list) }, (_, i) =>
         new Curve(m, made(m, (_args, out) => m._mimicry_curve_list_get(list, i, out))));

@@ -36,6 +36,11 @@ function notStarted(why: string): MimicryError {
   return new MimicryError('failed', `the bake's worker could not be started${why ? ` (${why})` : ''}: ${isNode ? '' : `${place}; `}${kRemedy}`);
 }
 
+export function requireWorker(worker: WorkerLike): void {
+  if (typeof worker.postMessage !== 'function' || typeof worker.terminate !== 'function' || !('on' in worker || 'addEventListener' in worker))
+    throw new MimicryError('invalid_input', 'option worker: give a Worker that runs mimicry/bake_worker');
+}
+
 /** Gives a worker its order, and hears of it until it is done. */
 export function follow(worker: WorkerLike, order: BakeOrder, onProgress?: (stage: string, fraction: number) => void): Promise<Bytes> {
   return new Promise((resolve, reject) => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { kFrameSize, kInked, kInkStride, kRejected, Mimicry, MimicryError } from 'mimicry';
-import { bakeHere } from 'mimicry/bake';
+import { bake, bakeHere } from 'mimicry/bake';
 
 const mimicry = new Mimicry();
 assert.throws(() => mimicry.shape('sphere'), /await mimicry\.ready/);
@@ -157,6 +157,76 @@ test('bakes, and draws with it', async () => {
   const baked = target.withEmbedding(bytes, 'sphere.mimicry');
   assert.ok(baked.hasEmbedding && !target.hasEmbedding);
   assert.equal(baked.session('mimicry').project(here, frames(50)).pointCount, 50);
+});
+
+test('what is given in another type is read where it has one meaning', () => {
+  const text = 'v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n';
+  const mesh = mimicry.readMesh(bytesOf(text).buffer, 'corner.obj');
+  const given = { positions: new Float32Array(mesh.positions), faces: new Uint16Array(mesh.faces) };
+  assert.deepEqual(mimicry.validate(given), mimicry.validate(mesh));
+  assert.deepEqual(mimicry.validate({ positions: [...mesh.positions], faces: [...mesh.faces] }), mimicry.validate(mesh));
+  const target = mimicry.createTarget(mimicry.shape('sphere', 4));
+  const session = target.session('snap');
+  const curve = session.project(here, frames(9));
+  const same = session.project([...here], [...frames(9)]);
+  assert.deepEqual(same.ink.floats, curve.ink.floats);
+  assert.equal(session.project(new Float32Array(here), new Float32Array(frames(9))).pointCount, 9);
+  session.begin([...here]);
+  assert.equal(session.add([...frames(1)]), kInked);
+  assert.deepEqual(target.writeCurves([curve], 'ply', [1, 2, 3]), target.writeCurves([curve], 'ply', Uint8Array.of(1, 2, 3)));
+});
+
+test('what cannot be understood is named, in every function', async () => {
+  const target = mimicry.createTarget(mimicry.shape('sphere', 4), 'sphere');
+  const session = target.session('snap');
+  const curve = session.project(here, frames(9));
+  const other = await new Mimicry().ready;
+  const foreign = other.createTarget(other.shape('sphere', 4)).session('snap').project(here, frames(9));
+  for (const [call, words] of [
+    [() => mimicry.shape(), /shape's name must be a text, not undefined/],
+    [() => mimicry.shape('sphere', 2.5), /resolution must be a whole number, not 2\.5/],
+    [() => mimicry.readMesh('v 0 0 0', 'a.obj'), /content must be bytes .* not "v 0 0 0"/],
+    [() => mimicry.readMesh(bytesOf('v 0 0 0')), /file's name must be a text/],
+    [() => mimicry.readMeshFiles(), /files must be an array/],
+    [() => mimicry.readMeshFiles([{}]), /content of a file must be bytes/],
+    [() => mimicry.validate(null), /positions .* must be 3 numbers each, not undefined/],
+    [() => mimicry.validate({ positions: [0, 0], faces: [] }), /positions .* must be 3 numbers each, not 2 of them/],
+    [() => mimicry.validate({ positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 1, 1.5] }), /face 0 refers to vertex -1/],
+    [() => mimicry.createTarget({ positions: 'abc', faces: [] }, 'x'), /positions .* not "abc"/],
+    [() => mimicry.createTarget(mimicry.shape('sphere', 4), 7), /target's name must be a text, not 7/],
+    [() => mimicry.readStrokes('{}', 's.json'), /must be bytes/],
+    [() => mimicry.writeStrokes([{}]), /stroke's frames/],
+    [() => mimicry.writeStrokes([{ id: 'a', target: 'b', modelToWorld: [1], frames: [] }]), /modelToWorld must be 8 numbers, not 1/],
+    [() => target.session(), /technique's name/],
+    [() => target.session('mimicry'), /bake it with bake\(\) of 'mimicry\/bake' or load its \.mimicry file with target\.withEmbedding\(\)/],
+    [() => target.session('mimicry-live', { options: { nozzle: undefined } }), /option 'nozzle' must be an array of numbers, not undefined/],
+    [() => target.withEmbedding(undefined), /must be bytes/],
+    [() => target.writeCurves([curve], 'fbx'), /no format fbx for curves; choose one of json, obj/],
+    [() => target.writeCurves([curve], 'ply', Uint8Array.of(1)), /colors must be 3 numbers, not 1/],
+    [() => target.writeCurves([null], 'obj'), /must be curves of this package/],
+    [() => target.writeCurves([foreign], 'obj'), /of another Mimicry/],
+    [() => target.readCurves(), /must be bytes/],
+    [() => session.begin(), /modelToWorld must be 8 numbers/],
+    [() => session.add(frames(2)), /frame must be 17 numbers, not 34/],
+    [() => session.project(here, new Float64Array(18)), /frames must be 17 numbers each, not 18/],
+    [() => curve.point(9), /no point 9 in a curve of 9/],
+    [() => curve.point(-1), /no point -1/],
+    [() => curve.slice(0, NaN), /end of the points must be a whole number, not NaN/],
+    [() => curve.resample(), /number of points must be a whole number/],
+    [() => curve.withStroke(), /stroke's id/],
+    [() => curve.withRadii([1]), /1 radii for a curve of 9/],
+    [() => curve.tube(NaN), /radius/],
+    [() => bake(null), /positions/],
+    [() => bake(mimicry.shape('sphere', 2), { samples: 20.5 }), /samples must be a whole number/],
+    [() => bake(mimicry.shape('sphere', 2), { worker: {} }), /option worker: give a Worker/],
+    [() => bakeHere(mimicry.shape('sphere', 2), { wasm: 7 }), /option wasm: 7/],
+  ])
+    await assert.rejects(async () => call(), (e) => {
+      assert.ok(e instanceof MimicryError && e.status === 'invalid_input', `${call}: ${e}`);
+      assert.match(e.message, words);
+      return true;
+    });
+  other.dispose();
 });
 
 test('memory grows under a session in use, and comes back', () => {
