@@ -5,6 +5,7 @@
 #include <mimicry/mesh/mesh_source.h>
 
 #include "io/json.h"
+#include "io/json_document.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -176,14 +177,15 @@ std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh) {
 
 CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh) {
   const std::string file(name);
-  Json document;
+  JsonDocument parsed;
   try {
-    document = parse_json(text_of(bytes, name));
+    parsed = JsonDocument(text_of(bytes, name), name);
   } catch (const Json::parse_error& error) {
     json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception& error) {
     json_fail(file, error.what());
   }
+  const Json& document = parsed.root();
   if (text(member(document, "format", file), file + ": format") != kCurvesFormat)
     json_fail(file, "is not a " + std::string(kCurvesFormat) + " file");
   const Json& version = member(document, "version", file);

@@ -50,13 +50,13 @@ GltfJson::GltfJson(std::string_view text, std::string_view name,
     text = text.substr(0, size);
   }
   try {
-    root_ = parse_json(text);
+    document_ = JsonDocument(text, name);
   } catch (const Json::parse_error& error) {
     fail_at_byte(name_, error.byte, "the JSON of the file is broken or cut short; export it again");
   } catch (const Json::exception&) {
     fail("", "the JSON holds a number beyond double precision; export the file again");
   }
-  if (!root_.is_object()) fail("", "the JSON is no object; give a glTF 2.0 file");
+  if (!root().is_object()) fail("", "the JSON is no object; give a glTF 2.0 file");
   check_version();
   check_extensions();
 }
@@ -127,7 +127,7 @@ std::optional<std::vector<double>> GltfJson::numbers(const Json& object, const c
 
 const Json& GltfJson::array(const char* key) const {
   static const Json none = Json::array();
-  const Json* value = find(root_, key);
+  const Json* value = find(root(), key);
   if (!value) return none;
   if (!value->is_array()) fail(key, "is not a list; export the file again");
   return *value;
@@ -142,7 +142,7 @@ const Json& GltfJson::item(const char* key, std::size_t index, const std::string
 }
 
 void GltfJson::check_version() const {
-  const Json* asset = find(root_, "asset");
+  const Json* asset = find(root(), "asset");
   const Json* version = asset ? find(*asset, "version") : nullptr;
   if (!version || !version->is_string())
     fail("asset", "'version' is missing; give a glTF 2.0 file");

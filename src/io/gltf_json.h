@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/json.h"
+#include "io/json_document.h"
 
 namespace mimicry::io {
 
@@ -22,7 +23,7 @@ class GltfJson {
   GltfJson(std::string_view text, std::string_view name,
            std::function<void(const std::string&)> note);
 
-  const Json& root() const { return root_; }
+  const Json& root() const { return document_.root(); }
   [[noreturn]] void fail(const std::string& place, const std::string& what,
                          ErrorKind kind = ErrorKind::invalid_input) const;
   /// Tells it once; after the twentieth only that there are more.
@@ -65,7 +66,7 @@ class GltfJson {
   std::string name_;
   std::function<void(const std::string&)> note_;
   mutable std::set<std::string> told_;
-  Json root_;
+  JsonDocument document_;
 };
 
 /// Where the JSON object that `bytes` begin with ends, blanks before it included; 0 where it does

@@ -21,13 +21,6 @@ namespace mimicry::io {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-/// A number beyond the range of a double overflows in the parser before it is refused.
-template <class... Callback>
-Json parse_json(std::string_view bytes, Callback&&... callback) {
-  const FloatTrapMask mask;
-  return Json::parse(bytes.begin(), bytes.end(), std::forward<Callback>(callback)...);
-}
-
 [[noreturn]] inline void json_fail(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::invalid_input, where + ": " + what);
 }

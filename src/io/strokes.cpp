@@ -5,6 +5,7 @@
 #include <mimicry/io/strokes.h>
 
 #include "io/json.h"
+#include "io/json_document.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -191,7 +192,7 @@ void read_part(std::string_view bytes, const StrokesPart& part,
     return true;
   };
   try {
-    const Json rest = parse_json(text_of(bytes, header.name), event);
+    const JsonDocument rest(text_of(bytes, header.name), header.name, event);
   } catch (const Json::parse_error& error) {
     throw Error(ErrorKind::invalid_input,
                 header.name + ": stroke " + std::to_string(count) + ": frame " +

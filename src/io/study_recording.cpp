@@ -7,6 +7,7 @@
 #include <mimicry/io/study_recording.h>
 
 #include "io/json.h"
+#include "io/json_document.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -175,7 +176,8 @@ std::vector<RecordedStroke> read_recording(std::string_view bytes, std::string_v
   const bool has_nan = bytes.find("NaN") != std::string_view::npos ||
                        bytes.find("Infinity") != std::string_view::npos;
   try {
-    parse_json(has_nan ? std::string_view(without_nan(bytes)) : bytes, event);
+    const std::string clean = has_nan ? without_nan(bytes) : std::string();
+    const JsonDocument rest(has_nan ? std::string_view(clean) : bytes, name, event);
   } catch (const Json::parse_error& error) {
     json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception& error) {

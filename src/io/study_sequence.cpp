@@ -7,6 +7,7 @@
 #include <mimicry/io/study_recording.h>
 
 #include "io/json.h"
+#include "io/json_document.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -113,7 +114,7 @@ study::StudySequence from_json(const Json& root, const std::string& file) {
 study::StudySequence read_study_sequence(std::string_view bytes, std::string_view name) {
   const std::string file(name);
   try {
-    return from_json(parse_json(text_of(bytes, name)), file);
+    return from_json(JsonDocument(text_of(bytes, name), name).root(), file);
   } catch (const Json::parse_error& error) {
     json_fail(file, "the text ends early or is not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::exception& error) {

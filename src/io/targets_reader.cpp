@@ -6,6 +6,7 @@
 #include <mimicry/io/targets_reader.h>
 
 #include "io/json.h"
+#include "io/json_document.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -70,8 +71,8 @@ study::TargetSet read_targets(std::string_view bytes, std::string_view name) {
   const std::string file(name);
   study::TargetSet set;
   try {
-    const Json root = parse_json(text_of(bytes, name));
-    const Json& shapes = array(root, "shapes", file);
+    const JsonDocument document(text_of(bytes, name), name);
+    const Json& shapes = array(document.root(), "shapes", file);
     for (std::size_t i = 0; i < shapes.size(); ++i)
       set.shapes.push_back(read_shape(shapes[i], file + ": shape " + std::to_string(i)));
   } catch (const Json::parse_error& error) {

@@ -2,19 +2,21 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace {
 
 std::atomic<long> allocations = 0;
+std::atomic<long> end = std::numeric_limits<long>::max();
 
 void* counted(std::size_t size) {
-  ++allocations;
+  if (++allocations > end) return nullptr;
   return std::malloc(size == 0 ? 1 : size);
 }
 
 void* counted(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
+  if (++allocations > end) return nullptr;
   const auto align = static_cast<std::size_t>(alignment);
   return std::aligned_alloc(align, (size + align - 1) / align * align);
 }
@@ -28,6 +30,14 @@ void* or_throw(void* p) {
 
 long mimicry::test::allocation_count() {
   return allocations;
+}
+
+mimicry::test::AllocationLimit::AllocationLimit(long count) {
+  end = allocations + count;
+}
+
+mimicry::test::AllocationLimit::~AllocationLimit() {
+  end = std::numeric_limits<long>::max();
 }
 
 // Every form that pairs with another: a sanitizer notices a mixture with the library's own.
