@@ -83,7 +83,7 @@ console.log(JSON.stringify(said));
     /invalid_input option wasm: 7 is no WebAssembly; give/,
     /io http:\/\/127\.0\.0\.1:9\/core\.wasm cannot be loaded/,
     /is no build of mimicry/,
-    /invalid_input .*3 numbers a vertex.*not 2 numbers/,
+    /invalid_input the positions .*3 numbers each, not 2 of them/,
     /failed the bake's worker failed \(it ended with code 3\)/,
     /failed the bake's worker failed \(broken\)/,
     /cancelled/,

@@ -7,15 +7,16 @@ import type { Doubles, Integers } from './types.js';
 export interface MeshInput {
   /** 3 a vertex. */
   positions: ArrayLike<number>;
-  /** 3 vertex numbers a face, counter-clockwise seen from outside. */
-  faces: ArrayLike<number>;
+  /** 3 vertex numbers a face, counter-clockwise seen from outside; where there are none, each 3 vertices are a face. */
+  faces?: ArrayLike<number> | null | undefined;
 }
 
 /** As the core takes it. */
 export function meshInput(mesh: MeshInput): { positions: Float64Array; faces: Int32Array } {
   const positions = givenNumbers(mesh?.positions, "the positions of a mesh's vertices", { per: 3 });
-  const faces: ArrayLike<number> = mesh.faces instanceof Int32Array && mesh.faces.length % 3 === 0
-    ? mesh.faces : givenNumbers(mesh.faces, "the vertex numbers of a mesh's faces", { per: 3 });
+  const faces: ArrayLike<number> = mesh.faces instanceof Int32Array && mesh.faces.length % 3 === 0 ? mesh.faces
+    : mesh.faces ? givenNumbers(mesh.faces, "the vertex numbers of a mesh's faces", { per: 3 })
+    : Int32Array.from({ length: positions.length / 3 }, (_, i) => i);
   // Numbers that are no vertex's stay so: -1 is refused with the face's number.
   return { positions, faces: faces instanceof Int32Array ? faces : Int32Array.from(faces, (v) => (Number.isInteger(v) && v < 2 ** 31 ? v : -1)) };
 }

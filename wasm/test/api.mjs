@@ -165,6 +165,7 @@ test('what is given in another type is read where it has one meaning', () => {
   const given = { positions: new Float32Array(mesh.positions), faces: new Uint16Array(mesh.faces) };
   assert.deepEqual(mimicry.validate(given), mimicry.validate(mesh));
   assert.deepEqual(mimicry.validate({ positions: [...mesh.positions], faces: [...mesh.faces] }), mimicry.validate(mesh));
+  assert.deepEqual(mimicry.validate({ positions: mesh.positions }), mimicry.validate(mesh));
   const target = mimicry.createTarget(mimicry.shape('sphere', 4));
   const session = target.session('snap');
   const curve = session.project(here, frames(9));

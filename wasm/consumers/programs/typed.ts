@@ -8,6 +8,7 @@ export async function draw(wasm: ArrayBuffer, file: Uint8Array): Promise<Uint8Ar
   const other: MeshInput = { positions: new Float32Array(9), faces: new Uint16Array([0, 1, 2]) };
   const target: Target = mimicry.createTarget(mesh, 'bunny', { join: true });
   mimicry.createTarget(other, 'triangle').dispose();
+  mimicry.createTarget({ positions: other.positions }).dispose();
   const session: Session = target.session('mimicry-live', { options: { nozzle: [0, 0, -1] } });
   session.begin(new Float64Array(8));
   const status: number = session.add(new Float64Array(kFrameSize));
