@@ -49,7 +49,7 @@ export class App implements Actions {
       problem: (text) => messages.problem(text),
       unsaved: (text) => text && messages.problem(text, { title: 'Save to a file', act: () => this.saveDrawing() }),
     });
-    this.files = new Files(root, this.studio, this.documents, this.ui);
+    this.files = new Files(root, this.studio, this.documents, this.ui, (axis) => this.turnModel(axis));
     root.append(drawingsPanel(this.documents, messages));
     followTabs(this.documents, messages);
     speakStrokes(this.studio, messages);
@@ -229,6 +229,13 @@ export class App implements Actions {
 
   frameModel(): void {
     if (this.studio.target) this.view.frame(this.studio.state.now.modelToWorld);
+  }
+
+  turnModel(axis: 'x' | 'z'): void {
+    this.pointer.release();
+    this.studio.turnModel(axis);
+    this.frameModel();
+    this.ui.messages.say('The model is turned by 90 degrees.');
   }
 
   bake(): void {

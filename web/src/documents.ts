@@ -7,6 +7,7 @@ import { recover, type Part, type Recovered } from './drawing/recover';
 import { indexedDbShelf, PatientShelf } from './drawing/shelf';
 import { Claims, Tabs, type Claim } from './drawing/tabs';
 import type { Curve, RecordedStroke, Target } from './engine/core';
+import { kAsIs } from './engine/up_axis';
 import { kDefaults } from './settings';
 import { Store } from './store';
 import type { LoadedModel, ModelSource, Studio, StudioState } from './studio';
@@ -99,8 +100,8 @@ export class Documents {
   openModel(model: LoadedModel): void {
     const target = this.studio.prepare(model);
     this.leave();
-    this.show(model, target, null, []);
-    this.begin(modelTitle(model.source), { name: model.name, source: model.source });
+    this.show(model, target, null, [], model.turn);
+    this.begin(modelTitle(model.source), this.storedModel()!);
     void this.host.shown(model, false);
   }
 
@@ -111,7 +112,7 @@ export class Documents {
     const before = this.open.now;
     this.leave();
     this.quietly(() => this.studio.restore([]));
-    this.begin(modelTitle(model.source), { name: model.name, source: model.source });
+    this.begin(modelTitle(model.source), this.storedModel()!);
     if (before) void this.copyBake(before.id);
   }
 
@@ -133,7 +134,7 @@ export class Documents {
     const claim = await this.claims.claim(id, () => void this.freed(id));
     const { technique } = this.studio.settings;
     this.leave();
-    this.show(model, target, stored.embedding, recovered.drawing);
+    this.show(model, target, stored.embedding, recovered.drawing, stored.model.turn);
     this.take(claim, { id, name: named.name, isOwn: named.isOwn, writes: claim.isMine });
     if (claim.isMine) this.autosave.resume(id, modelTitle(model.source), stored.entries);
     else this.autosave.pause();
@@ -158,8 +159,8 @@ export class Documents {
       throw error;
     }
     this.leave();
-    this.show(model, target, null, recovered.drawing);
-    this.begin(title ?? modelTitle(model.source), { ...stored, source: model.source }, title !== null);
+    this.show(model, target, null, recovered.drawing, stored.turn);
+    this.begin(title ?? modelTitle(model.source), this.storedModel()!, title !== null);
     this.autosave.save(this.studio.target!, recovered.drawing);
     for (const remark of recovered.remarks) this.host.problem(remark);
     void this.host.shown(model, false);
@@ -190,7 +191,7 @@ export class Documents {
     const before = this.open.now, { model, history } = this.studio.state.now;
     if (!before || !model) return;
     this.claim?.release();
-    this.begin(`${before.name} (copy)`, { name: model.name, source: model.source });
+    this.begin(`${before.name} (copy)`, this.storedModel()!);
     this.autosave.save(this.studio.target!, history.drawing);
     void this.copyBake(before.id);
     this.host.note(`You draw on a copy, “${this.open.now!.name}”. The other tab keeps “${before.name}”.`);
@@ -199,7 +200,9 @@ export class Documents {
   // Inside ------------------------------------------------------------------------------------
 
   private changed(now: StudioState, before: StudioState): void {
-    if (this.isSwitching || !this.open.now || now.history.drawing === before.history.drawing) return;
+    if (this.isSwitching || !this.open.now) return;
+    if (now.turn !== before.turn && this.open.now.writes) this.autosave.saveModel(this.storedModel()!);
+    if (now.history.drawing === before.history.drawing) return;
     if (!this.open.now.writes) return this.copy();
     this.autosave.save(this.studio.target!, now.history.drawing);
     if (this.askedToPersist) return;
@@ -218,9 +221,9 @@ export class Documents {
     this.keptCurves.clear();
   }
 
-  private show(model: LoadedModel, target: Target, embedding: Uint8Array | null, drawing: Drawing): void {
+  private show(model: LoadedModel, target: Target, embedding: Uint8Array | null, drawing: Drawing, turn: readonly number[] = kAsIs): void {
     this.quietly(() => {
-      this.studio.open(model, target);
+      this.studio.open(model, target, turn);
       if (embedding) {
         try {
           this.studio.addEmbedding(embedding, 'the prepared model');
@@ -230,6 +233,12 @@ export class Documents {
       }
       this.studio.restore(drawing);
     });
+  }
+
+  /** The model that is open, as it is kept. */
+  storedModel(): StoredModel | null {
+    const { model, turn } = this.studio.state.now;
+    return model && { name: model.name, source: model.source, turn: [...turn] };
   }
 
   private begin(title: string, model: StoredModel, isOwn = false): void {

@@ -22,7 +22,7 @@ export class Files {
   private loading: AbortController | null = null;
   private readonly picker = document.createElement('input');
 
-  constructor(root: HTMLElement, private readonly studio: Studio, private readonly documents: Documents, private readonly ui: Interface) {
+  constructor(root: HTMLElement, private readonly studio: Studio, private readonly documents: Documents, private readonly ui: Interface, private readonly turn: (axis: 'x' | 'z') => void) {
     this.picker.type = 'file';
     this.picker.multiple = true;
     this.picker.hidden = true;
@@ -81,7 +81,9 @@ export class Files {
     if (kMeshEndings.test(file.name)) {
       const start = new TextDecoder().decode(await file.slice(0, kStart).arrayBuffer());
       if (/\.obj$/i.test(file.name) && hasLinesOnly(start)) throw new Error(`${file.name}: ${kNotBack}`);
-      this.documents.openModel(await this.load(file.name, file, beside));
+      const model = await this.load(file.name, file, beside);
+      this.documents.openModel(model);
+      if (model.turn[3] !== 1) this.ui.messages.note(`${file.name} is taken to have z up.`, { title: 'Turn it (U)', act: () => this.turn('x') });
       if (/\.ply$/i.test(file.name) && /^property int curve\r?$/m.test(start)) this.ui.messages.note(`${file.name} holds curves as tubes; they are opened as a model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
       this.ui.messages.say(`${file.name} is open.`);
       return;
@@ -158,7 +160,7 @@ export class Files {
     const { model, history } = this.studio.state.now;
     if (!model || history.drawing.length === 0) return;
     const open = this.documents.open.now;
-    this.download(writeDrawing(this.studio.core, this.studio.target!, { name: model.name, source: model.source }, history.drawing, open?.isOwn ? open.name : undefined), kDrawingEnding);
+    this.download(writeDrawing(this.studio.core, this.studio.target!, this.documents.storedModel()!, history.drawing, open?.isOwn ? open.name : undefined), kDrawingEnding);
   }
 
   exportCurves(format: CurveFormat): void {

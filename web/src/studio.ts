@@ -7,6 +7,8 @@ import { mirrorFrame, mirrorPlane, type MirrorAxis, type Plane } from './drawing
 import { kInked, type Core, type Curve, type MeshArrays, type RecordedStroke, type Session, type Target } from './engine/core';
 import type { Corners } from './scene/creased';
 import type { Ink, Width } from './scene/tube';
+import { toWorld } from './math/similarity';
+import { quarterTurned, standing } from './math/standing';
 import { kDefaults, type Settings } from './settings';
 import { Store } from './store';
 
@@ -19,6 +21,8 @@ export interface LoadedModel {
   source: ModelSource;
   mesh: MeshArrays;
   corners: Corners;
+  /** How it stands upright, by what its file or shape tells: a unit quaternion. */
+  turn: readonly number[];
   /** What a user should know about the mesh, as sentences. */
   remarks: readonly string[];
 }
@@ -43,6 +47,8 @@ export interface StudioState {
   hasEmbedding: boolean;
   drawing: boolean; // a stroke is being drawn
   modelToWorld: Float64Array;
+  /** How the model was turned to stand upright: a unit quaternion. */
+  turn: readonly number[];
 }
 
 /** The techniques' option with which a pen inside the object draws at the surface that it went through. */
@@ -71,7 +77,7 @@ export class Studio {
     this.state = new Store<StudioState>({
       settings: core.techniques.some((t) => t.name === settings.technique) ? settings : { ...settings, technique: kDefaults.technique },
       history: kEmptyHistory, model: null, hasEmbedding: false, drawing: false,
-      modelToWorld: new Float64Array([0, 0, 0, 1, ...kCentre, 1]),
+      modelToWorld: new Float64Array([0, 0, 0, 1, ...kCentre, 1]), turn: [0, 0, 0, 1],
     });
     this.state.watch((now, before) => {
       if (now.history.drawing !== before.history.drawing) this.view.showDrawing(now.history.drawing);
@@ -96,19 +102,17 @@ export class Studio {
   }
 
   /** Shows another model; the drawing begins anew. Throws where it cannot be drawn on: all stays as it was. */
-  open(model: LoadedModel, target: Target = this.prepare(model)): void {
+  open(model: LoadedModel, target: Target = this.prepare(model), turn = model.turn): void {
     this.endStroke();
     this.forgetAll();
     this.target?.dispose();
     this.target = target;
     this.loaded = model;
-    const scale = model.mesh.metresPerUnit;
-    const place = new Float64Array([0, 0, 0, 1, 0, 0, 0, scale]);
-    for (let k = 0; k < 3; k += 1) place[4 + k] = kCentre[k]! - (scale * (target.min[k]! + target.max[k]!)) / 2;
+    const place = standing(this.centre(), kCentre, turn, model.mesh.metresPerUnit);
     this.view.showModel(model, target);
     this.view.place(place);
     this.state.update({
-      history: kEmptyHistory, hasEmbedding: false, modelToWorld: place,
+      history: kEmptyHistory, hasEmbedding: false, modelToWorld: place, turn,
       model: { name: model.name, source: model.source, faces: model.mesh.faces.length / 3, remarks: [...model.remarks, ...target.notes] },
     });
     if (this.technique(this.settings.technique).needsBake) this.set({ technique: kDefaults.technique });
@@ -133,6 +137,17 @@ export class Studio {
   place(modelToWorld: Float64Array): void {
     this.state.now.modelToWorld.set(modelToWorld);
     this.view.place(this.state.now.modelToWorld);
+  }
+
+  /** Turns the model by a quarter where it stands: around the axis from left to right, or toward the viewer. */
+  turnModel(axis: 'x' | 'z'): void {
+    if (!this.target) return;
+    this.endStroke();
+    const { turn: before, modelToWorld } = this.state.now;
+    const turn = quarterTurned(before, axis), centre = this.centre(), where = [0, 0, 0];
+    toWorld(where, 0, modelToWorld, centre, 0);
+    this.place(standing(centre, where, turn, modelToWorld[7]!));
+    this.state.update({ turn });
   }
 
   technique(name: string): Core['techniques'][number] {

@@ -1,6 +1,7 @@
 import { creasedCorners } from '../scene/creased';
 import type { LoadedModel, ModelSource } from '../studio';
 import type { Core, MeshArrays, MeshReport } from './core';
+import { guessTurn, kAsIs } from './up_axis';
 
 /** Faces that meet at more than this are shown with an edge. */
 const kCrease_rad = (38 / 180) * Math.PI;
@@ -16,7 +17,7 @@ export function prepareModel(core: Core, mesh: MeshArrays, name: string, source:
     throw new Error(`${name}: ${count(report.invalidVertices, 'vertex has', 'vertices have')} coordinates that are not finite numbers; repair the mesh in a modelling program and export it again`);
   }
   if (!(report.diagonal > 0)) throw new Error(`${name}: all its vertices are in one place; export the model again`);
-  return { name, source, mesh, corners: creasedCorners(mesh.positions, mesh.faces, kCrease_rad), remarks: remarks(report) };
+  return { name, source, mesh, corners: creasedCorners(mesh.positions, mesh.faces, kCrease_rad), turn: 'file' in source ? guessTurn(mesh, source.file) : kAsIs, remarks: remarks(report) };
 }
 
 export function shapeModel(core: Core, shape: string): LoadedModel {

@@ -53,6 +53,7 @@ export class Keyboard {
       case 't': case 'T': document.getElementById('techniques')?.togglePopover(); break;
       case 'm': case 'M': studio.set({ mirror: studio.settings.mirror === null ? 'x' : null }); break;
       case 'p': case 'P': studio.set({ penPlace: penPlace === 'on a plane' ? 'under the pointer' : 'on a plane' }); break;
+      case 'u': case 'U': this.actions.turnModel(event.shiftKey ? 'z' : 'x'); break;
       case 'f': case 'F': this.actions.frameModel(); break;
       case '[': studio.set(resized(studio.settings, 1 / 1.15)); break;
       case ']': studio.set(resized(studio.settings, 1.15)); break;

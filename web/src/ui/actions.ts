@@ -6,6 +6,8 @@ export interface Actions {
   redo(): void;
   clear(): void;
   frameModel(): void;
+  /** By 90 degrees: around the axis from left to right, or toward the viewer. */
+  turnModel(axis: 'x' | 'z'): void;
   openFiles(files: Iterable<File>): void;
   chooseFiles(): void;
   openShape(name: string): void;

@@ -11,7 +11,7 @@ const kHelp: readonly { title: string; rows: readonly [string[], string][] }[] =
   ] },
   { title: 'Keyboard', rows: [
     [['D'], 'draw'], [['E'], 'erase curves'], [['R'], 'erase parts'], [['1', '…', '8'], 'colour'], [['[', ']'], 'ink or eraser smaller, larger'], [['T'], 'techniques'], [['C'], 'compare'],
-    [['M'], 'symmetry'], [['P'], 'pen under the pointer, on a plane'], [['F'], 'show the whole model'], [['Arrows'], 'turn the view'], [['+', '−'], 'zoom'],
+    [['M'], 'symmetry'], [['P'], 'pen under the pointer, on a plane'], [['F'], 'show the whole model'], [['U'], 'turn the model by 90°; Shift: to the side'], [['Arrows'], 'turn the view'], [['+', '−'], 'zoom'],
     [['Ctrl Z'], 'undo'], [['Ctrl Shift Z'], 'redo'], [['Ctrl O'], 'open'], [['Ctrl S'], 'save'], [['Esc'], 'drop the stroke'], [['Enter'], 'draw from the keyboard: arrows move the pen, Enter ends'], [['?'], 'this help'],
   ] },
   { title: 'Headset', rows: [

@@ -62,7 +62,7 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
   const menu = h('div', { id: 'files', popover: 'auto', role: 'dialog', 'aria-label': 'Save, export and more' },
     item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), item(kIcons.drawings, 'Drawings…', '', () => actions.showDrawings()), save,
     h('hr', { class: 'hairline' }), h('p', { class: 'sheet-title' }, 'Export'), h('div', { class: 'exports', role: 'group', 'aria-label': 'Export' }, ...exports), h('hr', { class: 'hairline' }),
-    h('div', { class: 'rest' }, clear,
+    h('div', { class: 'rest' }, clear, item(kIcons.turn, 'Turn by 90°', 'U', () => actions.turnModel('x')),
       item(kIcons.compare, 'Compare techniques', '', () => toggleCompare(studio), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
       headset, theme, item(kIcons.help, 'Help', '', () => help.showModal(), 'only-narrow')));
 
