@@ -79,12 +79,17 @@ export class Files {
 
   private async openFile(file: File, beside: readonly File[]): Promise<void> {
     if (kMeshEndings.test(file.name)) {
-      const start = new TextDecoder().decode(await file.slice(0, kStart).arrayBuffer());
-      if (/\.obj$/i.test(file.name) && hasLinesOnly(start)) throw new Error(`${file.name}: ${kNotBack}`);
-      const model = await this.load(file.name, file, beside);
+      const start = async (): Promise<string> => new TextDecoder().decode(await file.slice(0, kStart).arrayBuffer());
+      let model: LoadedModel;
+      try {
+        model = await this.load(file.name, file, beside);
+      } catch (error) {
+        if (/\.obj$/i.test(file.name) && hasLinesOnly(await start())) throw new Error(`${file.name}: ${kNotBack}`);
+        throw error;
+      }
       this.documents.openModel(model);
       if (model.turn[3] !== 1) this.ui.messages.note(`${file.name} is taken to have z up.`, { title: 'Turn it (U)', act: () => this.turn('x') });
-      if (/\.ply$/i.test(file.name) && /^property int curve\r?$/m.test(start)) this.ui.messages.note(`${file.name} holds curves as tubes; they are opened as a model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
+      if (/\.ply$/i.test(file.name) && /^property int curve\r?$/m.test(await start())) this.ui.messages.note(`${file.name} holds curves as tubes; they are opened as a model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
       this.ui.messages.say(`${file.name} is open.`);
       return;
     }

@@ -1,8 +1,8 @@
 import {
-  AmbientLight, CircleGeometry, Color, DirectionalLight, GridHelper, Group, HemisphereLight, Mesh, MeshBasicMaterial,
-  PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer, type Camera, type LineBasicMaterial,
+  AmbientLight, Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer, type Camera,
 } from 'three';
 import { CameraRig } from './camera_rig';
+import { RoomFloor } from './room_floor';
 
 export interface Look {
   background: string;
@@ -83,8 +83,7 @@ export class Stage {
   }
 
   private look: Look = kLooks.light;
-  private readonly floor = new Mesh(new CircleGeometry(4, 64).rotateX(-Math.PI / 2), new MeshBasicMaterial());
-  private readonly grid = new GridHelper(8, 32);
+  private readonly floor = new RoomFloor();
 
   /** Someone stands in the scene: a floor under the feet, or the room through the glasses. */
   enterXr(seeThrough: boolean): void {
@@ -92,17 +91,13 @@ export class Stage {
       this.scene.background = null;
       return;
     }
-    const lines = this.grid.material as LineBasicMaterial;
-    lines.transparent = true;
-    lines.opacity = 0.25;
-    (this.floor.material as MeshBasicMaterial).color.set(this.look.floor);
-    this.grid.position.y = 0.002;
-    this.scene.add(this.floor, this.grid);
+    this.floor.look(this.look.floor, this.look === kLooks.dark);
+    this.scene.add(this.floor.group);
   }
 
   /** The renderer has left the headset: window, camera and picture are as they were. */
   leaveXr(): void {
-    this.scene.remove(this.floor, this.grid);
+    this.scene.remove(this.floor.group);
     this.setLook(this.look);
     // The headset wrote its own pose and projection into the camera, and the window may have another size.
     this.camera.fov = kFov;

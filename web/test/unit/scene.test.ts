@@ -1,5 +1,6 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { discs } from '../../src/scene/room_floor';
 import { CameraRig } from '../../src/scene/camera_rig';
 import { creasedCorners } from '../../src/scene/creased';
 import { Tube, type Ink, type Width } from '../../src/scene/tube';
@@ -162,5 +163,26 @@ describe('camera', () => {
       expect(steps).toBeLessThan(120);
     }
     expect(steps).toBeGreaterThan(3);
+  });
+});
+
+describe('the floor in a headset', () => {
+  it('faces up, and fades without an edge that would look like a hill', () => {
+    const geometry = discs();
+    const at = geometry.getAttribute('position'), color = geometry.getAttribute('color'), index = geometry.getIndex()!;
+    const seen = Array.from({ length: at.count }, (_, i) => ({ r: Math.hypot(at.getX(i), at.getZ(i)), alpha: color.getW(i) })).sort((a, b) => a.r - b.r);
+    expect(seen[0]!.alpha).toBe(1);
+    expect(seen.at(-1)!.alpha).toBe(0);
+    expect(seen.at(-1)!.r).toBeGreaterThan(10);
+    for (let i = 1; i < seen.length; i += 1) {
+      expect(seen[i]!.alpha).toBeLessThanOrEqual(seen[i - 1]!.alpha);
+      // From ring to ring less than the eye takes for an edge: a tenth of the floor's own difference to the background.
+      expect(seen[i - 1]!.alpha - seen[i]!.alpha).toBeLessThan(0.1);
+    }
+    for (let f = 0; f < index.count; f += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => [at.getX(index.getX(f + k)), at.getZ(index.getX(f + k))]);
+      const up = (b![1]! - a![1]!) * (c![0]! - a![0]!) - (b![0]! - a![0]!) * (c![1]! - a![1]!);
+      expect(up).toBeGreaterThanOrEqual(0); // flat at the middle
+    }
   });
 });
