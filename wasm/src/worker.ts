@@ -16,7 +16,8 @@ export async function startWorker(): Promise<WorkerLike> {
       return typeof script === 'string' ? new Thread(script, { eval: true, execArgv: [] }) : new Thread(new URL(script.href), { execArgv: [] });
     }
     if (typeof Worker === 'undefined') throw new Error('there are no workers here');
-    if (typeof script !== 'string') return new Worker(script.href);
+    // A script, but servers for developing add imports to it.
+    if (typeof script !== 'string') return new Worker(script.href, { type: 'module' });
     const place = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
     try {
       return new Worker(place);

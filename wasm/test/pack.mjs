@@ -15,7 +15,10 @@ try {
   writeFileSync(join(work, 'package.json'), '{"private": true, "type": "module"}');
   execFileSync('npm', ['install', '--offline', '--no-audit', '--no-fund', '--silent', `./${archive}`], quiet);
   const installed = readdirSync(join(work, 'node_modules', 'mimicry'));
-  assert.deepEqual(installed.sort(), ['LICENSE', 'README.md', 'THIRD_PARTY.md', 'dist', 'package.json']);
+  assert.deepEqual(installed.sort(), ['LICENSE', 'README.md', 'THIRD_PARTY.md', 'bake.js', 'compat.js', 'dist', 'package.json']);
+  // What resolvers find that look at files alone.
+  const [bake, compat] = await Promise.all(['bake.js', 'compat.js'].map((name) => import(join(work, 'node_modules', 'mimicry', name))));
+  assert.ok(bake.bake === compat.bake && compat.Mimicry);
 
   const program = /```js\n([^]*?)```/.exec(readFileSync(join(root, 'README.md'), 'utf8'))[1];
   writeFileSync(join(work, 'readme.mjs'), program);
