@@ -10,7 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const TriangleMesh mesh = make_box(1, 1, 1, Vec3::Ones());
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    const io::CurveSet set = io::read_curves_json(bytes, "input", mesh);
+    const io::CurveSet set = io::is_packed_curves(bytes)
+                                 ? io::read_curves_packed(bytes, "input", mesh)
+                                 : io::read_curves_json(bytes, "input", mesh);
     // What is accepted refers to nothing beyond the mesh: every writer can go through it.
     (void)io::write_curves_json(set, mesh);
     (void)io::write_curves_obj(set, mesh);

@@ -91,6 +91,7 @@ void drawings() {
       set.curves.push_back(std::move(record));
     }
   keep("curves", "all", io::write_curves_json(set, box));
+  keep("curves", "packed", io::write_curves_packed(set, box));
   set.curves.resize(1);
   keep("curves", "one", io::write_curves_json(set, box));
   keep("csv", "curves", io::write_curves_csv(set, box));

@@ -406,7 +406,8 @@ typedef enum mimicry_curve_format MIMICRY_INT {
   MIMICRY_CURVES_GLB = 4,           /* the target, and tubes */
   MIMICRY_CURVES_OBJ_POLYLINES = 5, /* one long line element a part; some importers lose it */
   MIMICRY_CURVES_PLY_LINES = 6,     /* edge elements, which few readers know */
-  MIMICRY_CURVES_GLB_LINES = 7      /* the target, and line strips */
+  MIMICRY_CURVES_GLB_LINES = 7,     /* the target, and line strips */
+  MIMICRY_CURVES_PACKED = 8         /* raw numbers: fast, for keeping and handing on */
 } mimicry_curve_format;
 
 /* A file of curves on one target. colors: count by 3, sRGB (NULL: black; PLY and GLB only).
@@ -416,7 +417,7 @@ MIMICRY_API mimicry_status mimicry_curves_write(const mimicry_target* target,
                                                 const mimicry_curve* const* curves, size_t count,
                                                 mimicry_curve_format format, const uint8_t* colors,
                                                 double tube_radius, mimicry_bytes** out);
-/* A JSON file of curves on this target. */
+/* A JSON or packed file of curves on this target. */
 MIMICRY_API mimicry_status mimicry_curves_read(const mimicry_target* target, const void* data,
                                                size_t size, const char* name,
                                                mimicry_curve_list** out);

@@ -47,6 +47,8 @@ std::string file_bytes(mimicry_curve_format format, const io::CurveSet& set,
       return io::write_curves_ply_lines(set, mesh, colors);
     case MIMICRY_CURVES_GLB_LINES:
       return io::write_curves_glb_lines(set, mesh, colors);
+    case MIMICRY_CURVES_PACKED:
+      return io::write_curves_packed(set, mesh);
   }
   throw Error(ErrorKind::invalid_input,
               "there is no curve format " + std::to_string(static_cast<int>(format)));
@@ -79,8 +81,10 @@ mimicry_status mimicry_curves_read(const mimicry_target* target, const void* dat
                                    const char* name, mimicry_curve_list** out) {
   return made(out, [&] {
     require(target, "target");
+    const std::string_view bytes = content(data, size);
     io::CurveSet set =
-        io::read_curves_json(content(data, size), text(name, "name"), target->target->mesh());
+        (io::is_packed_curves(bytes) ? io::read_curves_packed : io::read_curves_json)(
+            bytes, text(name, "name"), target->target->mesh());
     return mimicry_curve_list{target->target, std::move(set.curves)};
   });
 }

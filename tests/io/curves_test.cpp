@@ -125,6 +125,48 @@ TEST(Curves, JsonReadsBackToTheSameBits) {
   EXPECT_EQ(curve::length(a), curve::length(b));
 }
 
+TEST(Curves, PackedReadsBackToTheSameBits) {
+  const Sample sample;
+  const std::string bytes = write_curves_packed(sample.set, sample.mesh);
+  EXPECT_TRUE(is_packed_curves(bytes));
+  const CurveSet read = read_curves_packed(bytes, "c", sample.mesh);
+  // JSON keeps every bit (above), so that equal texts are equal curves.
+  EXPECT_EQ(write_curves_json(read, sample.mesh), write_curves_json(sample.set, sample.mesh));
+  EXPECT_FALSE(is_packed_curves(write_curves_json(sample.set, sample.mesh)));
+}
+
+TEST(Curves, PackedThatIsBrokenOrOfAnotherMeshIsRefusedByName) {
+  const Sample sample;
+  const std::string bytes = write_curves_packed(sample.set, sample.mesh);
+  const auto error_of = [&](const std::string& content, const TriangleMesh& mesh) -> std::string {
+    try {
+      read_curves_packed(content, "kept", mesh);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of(bytes, make_torus(24, 11)),
+              HasSubstr("was drawn on a mesh of 240 vertices"));
+  EXPECT_THAT(error_of(bytes + "x", sample.mesh), HasSubstr("follows"));
+  std::string other = bytes;
+  other[15] = 2;
+  EXPECT_THAT(error_of(other, sample.mesh), HasSubstr("another version"));
+  for (std::size_t n = 0; n < bytes.size(); n += 13)
+    ASSERT_THAT(error_of(bytes.substr(0, n), sample.mesh), HasSubstr("kept")) << n;
+  // Whatever byte is changed: refused by name, or a curve that every writer can go through.
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    std::string changed = bytes;
+    changed[n] = static_cast<char>(changed[n] ^ 0xA5);
+    try {
+      const CurveSet read = read_curves_packed(changed, "kept", sample.mesh);
+      ASSERT_NO_THROW(write_curves_csv(read, sample.mesh)) << n;
+    } catch (const Error& error) {
+      ASSERT_THAT(error.what(), HasSubstr("kept")) << n;
+    }
+  }
+}
+
 TEST(Curves, ForeignMeshAndBrokenFilesAreRefusedByName) {
   const Sample sample;
   const std::string bytes = write_curves_json(sample.set, sample.mesh);
