@@ -23,15 +23,6 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_a
 constexpr unsigned kOrderly_s = 1;
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-[[noreturn]] void end_now() {
-  if (const pid_t running = child; running > 0) ::kill(running, SIGKILL);
-  files::remove_unfinished();
-  constexpr std::string_view kMessage = "mimicry: interrupted\n";
-  (void)!::write(STDERR_FILENO, kMessage.data(), kMessage.size());
-  ::_exit(kCancelled);
-}
-
-// Both call only what is safe in a signal handler.
 void on_request(int) {
   if (requested.exchange(true)) end_now();
   ::alarm(kOrderly_s);
@@ -42,6 +33,15 @@ void on_alarm(int) {
 }
 
 }  // namespace
+
+// Calls only what is safe in a signal handler.
+void end_now() {
+  if (const pid_t running = child; running > 0) ::kill(running, SIGKILL);
+  files::remove_unfinished();
+  constexpr std::string_view kMessage = "mimicry: interrupted\n";
+  (void)!::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  ::_exit(kCancelled);
+}
 
 void catch_signals() {
   struct sigaction action = {};

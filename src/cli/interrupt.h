@@ -16,6 +16,9 @@ bool end_requested();
 /// Throws Error(cancelled) where it was.
 void end_if_requested();
 
+/// Ends the program where it is, as a second signal does.
+[[noreturn]] void end_now();
+
 /// A program that we wait for: it is ended with us. 0: none.
 void set_child(pid_t child);
 

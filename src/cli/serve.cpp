@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -14,6 +17,7 @@
 #include <mimicry/serve/server.h>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 
 namespace mimicry::cli {
 namespace {
@@ -70,6 +74,46 @@ std::uint64_t half_the_memory() {
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size) / 2;
 }
 
+// Ends the server when it is asked to, and the program where that takes longer than a second: a
+// busy machine, a page that is still being read. Signals must be blocked in all threads.
+class Watch {
+ public:
+  explicit Watch(const sigset_t& signals) : signals_(signals), thread_([this] { wait(); }) {}
+  ~Watch() {
+    over_ = true;
+    pthread_kill(thread_.native_handle(), SIGTERM);
+    thread_.join();
+  }
+  /// The server that is to end orderly; at once where that was asked for before.
+  void set(serve::Server& server) {
+    const std::lock_guard lock(mutex_);
+    server_ = &server;
+    if (asked_) server.stop();
+  }
+
+ private:
+  void wait() {
+    int signal = 0;
+    sigwait(&signals_, &signal);
+    {
+      const std::lock_guard lock(mutex_);
+      asked_ = true;
+      if (server_ && !over_) server_->stop();
+    }
+    // Until it is over, time is up, or someone asks once more.
+    constexpr timespec kOrderly = {1, 0};
+    if (!over_) sigtimedwait(&signals_, nullptr, &kOrderly);
+    if (!over_) end_now();
+  }
+
+  sigset_t signals_;
+  std::mutex mutex_;
+  serve::Server* server_ = nullptr;
+  bool asked_ = false;
+  std::atomic<bool> over_{false};
+  std::thread thread_;
+};
+
 void run_serve(const serve::ServeOptions& options) {
   // Threads inherit the mask: the signals come to the one that waits for them.
   sigset_t signals;
@@ -78,21 +122,12 @@ void run_serve(const serve::ServeOptions& options) {
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-  serve::Server server(options);
-  std::thread waiting([&] {
-    int signal = 0;
-    sigwait(&signals, &signal);
-    server.stop();
-  });
-  print_addresses(server, options);
-  try {
-    server.run();
-  } catch (...) {
-    pthread_kill(waiting.native_handle(), SIGTERM);
-    waiting.join();
-    throw;
-  }
-  waiting.join();
+  std::unique_ptr<serve::Server> server;  // outlives the watch
+  Watch watch(signals);
+  server = std::make_unique<serve::Server>(options);
+  watch.set(*server);
+  print_addresses(*server, options);
+  server->run();
 }
 
 }  // namespace

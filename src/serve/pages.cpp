@@ -5,11 +5,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <new>
 #include <string_view>
 #include <utility>
-
-#include <zlib.h>
 
 #include <mimicry/base/error.h>
 #include <mimicry/files/file.h>
@@ -45,23 +42,6 @@ const char* type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-std::string gzipped(std::string_view content) {
-  constexpr int kGzip = 15 + 16;  // the window's bits, and gzip's header
-  z_stream stream{};
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) !=
-      Z_OK)
-    throw std::bad_alloc();
-  std::string packed(deflateBound(&stream, static_cast<uLong>(content.size())), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
-  stream.avail_in = static_cast<uInt>(content.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);  // there is room for all of it
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
-
 // FNV-1a. A tag tells a browser that a file has changed, and guards nothing.
 std::string tag_of(std::string_view content) {
   std::uint64_t hash = 0xCBF29CE484222325u;
@@ -79,14 +59,31 @@ std::string tag_of(std::string_view content) {
                                  " MB); name the built page's folder with --studio");
 }
 
-// A word of a list such as "gzip;q=0.5, br" that is not refused with q=0.
-bool accepts_gzip(std::string_view list) {
-  const std::size_t at = list.find("gzip");
-  if (at == std::string_view::npos) return false;
-  std::string_view word = list.substr(at, list.find(',', at) - at);
-  const std::size_t q = word.find("q=");
-  return q == std::string_view::npos ||
-         word.substr(q + 2).find_first_of("123456789") != std::string_view::npos;
+// A coding of a list such as "gzip;q=0.5, br" that is not refused with q=0.
+bool accepts(std::string_view list, std::string_view coding) {
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    std::string_view word = list.substr(0, comma);
+    list.remove_prefix(std::min(comma + 1, list.size()));
+    word.remove_prefix(std::min(word.find_first_not_of(" \t"), word.size()));
+    if (word.substr(0, word.find_first_of("; \t")) != coding) continue;
+    const std::size_t q = word.find("q=");
+    return q == std::string_view::npos ||
+           word.substr(q + 2).find_first_of("123456789") != std::string_view::npos;
+  }
+  return false;
+}
+
+// Of a file's name: how its content is packed, and the ending that says so.
+constexpr std::array<std::pair<std::string_view, const char*>, 2> kCodings = {
+    {{".br", "br"}, {".gz", "gzip"}}};
+
+// The ending alone does not tell: a studio may have a file that is called so.
+bool is_packed_form(const std::string& path, const auto& forms) {
+  return std::any_of(kCodings.begin(), kCodings.end(), [&](const auto& coding) {
+    const std::string_view ending = coding.first;
+    return path.ends_with(ending) && forms.contains(path.substr(0, path.size() - ending.size()));
+  });
 }
 
 }  // namespace
@@ -100,6 +97,7 @@ Pages::Pages(const std::string& folder) {
                                    "&& cmake --build --preset wasm --target web_page` (or ./run), "
                                    "or name its folder with --studio");
   std::uint64_t bytes = 0;
+  std::map<std::string, Form> forms;
   for (fs::recursive_directory_iterator it(root, trouble), end; !trouble && it != end;
        it.increment(trouble)) {
     std::error_code gone;
@@ -109,21 +107,27 @@ Pages::Pages(const std::string& folder) {
         std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
     if (!inside || !fs::is_regular_file(file, gone)) continue;
     bytes += fs::file_size(file, gone);
-    if (gone || bytes > limits::kStudioBytes || pages_.size() == limits::kStudioFiles)
+    if (gone || bytes > limits::kStudioBytes || forms.size() == limits::kStudioFiles)
       too_much(folder);
-    auto page = std::make_shared<Page>();
-    page->content = files::read_file(file.string());
-    page->gzipped = gzipped(page->content);
-    if (page->gzipped.size() > page->content.size() / 10 * 9) page->gzipped = {};
-    page->type = type_of(file);
-    page->tag = tag_of(page->content);
     const std::string path = "/" + it->path().lexically_relative(root).generic_string();
-    // Built files carry a hash of their content in their names.
-    page->is_immutable = path.starts_with("/assets/");
-    pages_.emplace(path, std::move(page));
+    std::string content = files::read_file(file.string());
+    std::string tag = tag_of(content);
+    forms.emplace(path, Form{std::move(content), std::move(tag)});
   }
   if (trouble)
     throw Error(ErrorKind::io, folder + ": the folder cannot be read: " + trouble.message());
+  for (auto& [path, form] : forms) {
+    if (is_packed_form(path, forms)) continue;
+    auto page = std::make_shared<Page>();
+    page->plain = std::move(form);
+    page->type = type_of(path);
+    // Built files carry a hash of their content in their names.
+    page->is_immutable = path.starts_with("/assets/");
+    for (const auto& [ending, coding] : kCodings)
+      if (const auto packed = forms.find(path + std::string(ending)); packed != forms.end())
+        page->packed.emplace_back(coding, std::move(packed->second));
+    pages_.emplace(path, std::move(page));
+  }
 }
 
 Response Pages::answer(const Request& request) const {
@@ -131,21 +135,24 @@ Response Pages::answer(const Request& request) const {
   if (found == pages_.end())
     return refusal(404, printable(request.path) + ": there is no such file");
   const Page& page = *found->second;
+  const std::string_view accepted = request.head.field("Accept-Encoding");
+  const auto packed = std::find_if(page.packed.begin(), page.packed.end(),
+                                   [&](const auto& form) { return accepts(accepted, form.first); });
+  const Form& form = packed == page.packed.end() ? page.plain : packed->second;
+  const std::string tag = "\"" + form.tag + "\"";
   Response response;
-  const bool packed = !page.gzipped.empty() && accepts_gzip(request.head.field("Accept-Encoding"));
-  const std::string tag = "\"" + page.tag + (packed ? "-gzip\"" : "\"");
   response.fields = {
       {"Content-Type", page.type},
       {"ETag", tag},
       {"Cache-Control", page.is_immutable ? "public, max-age=31536000, immutable" : "no-cache"}};
-  if (!page.gzipped.empty()) response.fields.emplace_back("Vary", "Accept-Encoding");
-  if (packed) response.fields.emplace_back("Content-Encoding", "gzip");
+  if (!page.packed.empty()) response.fields.emplace_back("Vary", "Accept-Encoding");
+  if (packed != page.packed.end()) response.fields.emplace_back("Content-Encoding", packed->first);
   const std::string_view known = request.head.field("If-None-Match");
   if (known == "*" || known.find(tag) != std::string_view::npos) {
     response.status = 304;
     return response;
   }
-  response.body = packed ? page.gzipped : page.content;
+  response.body = form.content;
   response.keeper = found->second;
   return response;
 }
