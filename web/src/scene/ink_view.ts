@@ -2,100 +2,145 @@ import { Group, Mesh, MeshStandardMaterial } from 'three';
 import { kPressure, kFrameSize } from '../drawing/frame';
 import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle } from '../drawing/document';
 import type { Range } from '../drawing/kept';
-import { Tube, type Ink, type Width } from './tube';
+import { InkBatch, type InkPlace } from './ink_batch';
+import { kRingSides, Tube, type Ink, type Width } from './tube';
 
-const kSides = 8;
 /** Ink is raised by this part of its radius, so that a bit more than half of it shows. */
 const kRaise = 0.25;
+/** Ink of a drawing that is opened is made for so long at a time. */
+const kMost_ms = 12;
 
 interface Shown {
-  drawn: DrawnCurve | null; // null: it is being drawn
+  drawn: DrawnCurve | null; // null: it was being drawn a moment ago
+  place: InkPlace;
+}
+interface Live {
   tube: Tube;
-  mesh: Mesh;
+  mesh: Mesh<Tube['geometry'], MeshStandardMaterial>;
+  width: Width;
+  color: string;
 }
 
-/** The tubes of a drawing, children of a model's group. Keeps what did not change. */
+/**
+ * The ink of a drawing, a child of a model's group. What is being drawn is a tube of its own; what is finished lies with
+ * all the rest in a few buffers. What did not change is kept.
+ */
 export class InkView {
   readonly group = new Group();
+  private readonly batch: InkBatch;
   private readonly shown = new Map<string, Shown>();
-  private readonly live: (Shown & { width: Width })[] = [];
-  private readonly materials = new Map<string, MeshStandardMaterial>();
+  private readonly live = new Map<number, Live>();
+  private readonly idle: Live[] = [];
+  private drawing: Drawing = [];
+  private next = 0; // of the drawing: those before it are shown
+  private waiting = 0;
+
+  /** onMore: ink came in later than it was asked for. */
+  constructor(gl: WebGL2RenderingContext, private readonly onMore: () => void) {
+    this.batch = new InkBatch(gl);
+    this.group.add(this.batch.group);
+  }
 
   begin(copy: number, style: InkStyle, modelToWorld: Float64Array, width: Width): void {
-    const { tube, mesh } = this.make(style, modelToWorld[7]!);
-    this.live[copy] = { drawn: null, tube, mesh, width };
-    this.group.add(mesh);
+    const live = this.tube(style, modelToWorld[7]!, width);
+    this.live.set(copy, live);
+    this.group.add(live.mesh);
   }
 
   grow(copy: number, ink: Ink): void {
-    const live = this.live[copy]!;
+    const live = this.live.get(copy)!;
     live.tube.append(ink, live.width);
   }
 
   keep(copy: number, id: string): void {
-    this.shown.set(id, this.live[copy]!);
-    delete this.live[copy];
+    const live = this.live.get(copy)!;
+    this.shown.set(id, { drawn: null, place: this.batch.add(live.tube, live.color) });
+    this.live.delete(copy);
+    this.release(live);
   }
 
   drop(): void {
-    for (const live of this.live) if (live) this.remove(live);
-    this.live.length = 0;
+    for (const live of this.live.values()) this.release(live);
+    this.live.clear();
   }
 
   show(drawing: Drawing): void {
+    this.drawing = drawing;
     const left = new Set(this.shown.keys());
-    for (const drawn of drawing) {
-      left.delete(drawn.id);
-      const known = this.shown.get(drawn.id);
-      if (known && (known.drawn === drawn || known.drawn === null)) {
-        known.drawn = drawn;
-        continue;
-      }
-      if (known) this.remove(known);
-      this.shown.set(drawn.id, this.build(drawn));
-    }
-    for (const id of left) {
-      this.remove(this.shown.get(id)!);
-      this.shown.delete(id);
-    }
+    for (const { id } of drawing) left.delete(id);
+    for (const id of left) this.remove(id);
+    this.next = 0;
+    this.go();
+  }
+
+  /** The graphics card has lost everything. */
+  renew(): void {
+    this.batch.forget();
+    this.shown.clear();
+    this.show(this.drawing);
   }
 
   /** The number of triangles, for measuring. */
   get triangles(): number {
     let sum = 0;
-    for (const { tube } of this.shown.values()) sum += tube.geometry.drawRange.count / 3;
+    for (const { place } of this.shown.values()) sum += (place.count - 1) * kRingSides * 2;
     return sum;
   }
 
-  private build(drawn: DrawnCurve): Shown {
-    const { tube, mesh } = this.make(drawn.style, drawn.stroke.modelToWorld[7]!);
-    const { frames } = drawn.stroke;
+  /** Makes what is not shown yet; of a whole drawing a part now and the rest a little later. */
+  private go(): void {
+    clearTimeout(this.waiting);
+    this.waiting = 0;
+    const until = performance.now() + kMost_ms;
+    for (; this.next < this.drawing.length; this.next += 1) {
+      if (performance.now() > until) {
+        this.waiting = window.setTimeout(() => {
+          this.go();
+          this.onMore();
+        });
+        return;
+      }
+      this.update(this.drawing[this.next]!);
+    }
+  }
+
+  private update(drawn: DrawnCurve): void {
+    const known = this.shown.get(drawn.id);
+    if (known && (known.drawn === drawn || known.drawn === null)) {
+      known.drawn = drawn;
+      return;
+    }
+    if (known) this.remove(drawn.id);
+    const { frames, modelToWorld } = drawn.stroke;
     const width: Width = (frame, out) => {
       out[0] = widthOfPressure(frames[frame * kFrameSize + kPressure] ?? -1);
     };
-    tube.append(drawn.curve.ink, width, isWhole(drawn) ? undefined : shownIn(drawn.kept));
-    this.group.add(mesh);
-    return { drawn, tube, mesh };
+    const made = this.tube(drawn.style, modelToWorld[7]!, width);
+    made.tube.append(drawn.curve.ink, width, isWhole(drawn) ? undefined : shownIn(drawn.kept));
+    this.shown.set(drawn.id, { drawn, place: this.batch.add(made.tube, made.color) });
+    this.release(made);
   }
 
-  private make(style: InkStyle, scale: number): { tube: Tube; mesh: Mesh } {
-    const radius = style.radius_m / scale;
-    const tube = new Tube({ radius, lift: style.offset_m / scale + kRaise * radius, sides: kSides });
-    return { tube, mesh: new Mesh(tube.geometry, this.material(style.color)) };
-  }
-
-  private material(color: string): MeshStandardMaterial {
-    let material = this.materials.get(color);
-    if (!material) {
-      material = new MeshStandardMaterial({ color, roughness: 0.45, metalness: 0 });
-      this.materials.set(color, material);
+  private tube({ color, radius_m, offset_m }: InkStyle, scale: number, width: Width): Live {
+    const radius = radius_m / scale, lift = offset_m / scale + kRaise * radius;
+    const live = this.idle.pop();
+    if (!live) {
+      const tube = new Tube({ radius, lift, sides: kRingSides });
+      return { tube, mesh: new Mesh(tube.geometry, new MeshStandardMaterial({ color, roughness: 0.45, metalness: 0 })), width, color };
     }
-    return material;
+    live.tube.restart(radius, lift);
+    live.mesh.material.color.set(color);
+    return Object.assign(live, { width, color });
   }
 
-  private remove(shown: Shown): void {
-    this.group.remove(shown.mesh);
-    shown.tube.dispose();
+  private release(live: Live): void {
+    this.group.remove(live.mesh);
+    this.idle.push(live);
+  }
+
+  private remove(id: string): void {
+    this.batch.remove(this.shown.get(id)!.place);
+    this.shown.delete(id);
   }
 }
 

@@ -40,6 +40,8 @@ export class Stage {
   /** Called before each picture with the seconds since the last one; true: another one is wanted. */
   onFrame: (dt_s: number, time_ms: number, xr: XRFrame | null) => boolean = () => false;
   onContext: (lost: boolean) => void = () => undefined;
+  /** What lies on the graphics card alone is to be made anew. */
+  onRestored: () => void = () => undefined;
 
   private dirty = true;
   private last_ms = 0;
@@ -68,6 +70,7 @@ export class Stage {
     });
     canvas.addEventListener('webglcontextrestored', () => {
       this.onContext(false);
+      this.onRestored();
       this.invalidate();
     });
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);

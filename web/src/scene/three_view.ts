@@ -12,12 +12,19 @@ export class ThreeView implements StudioView {
   readonly model: ModelView;
   readonly twin: ModelView;
   readonly pen = new PenView();
-  readonly ink = new InkView();
-  private readonly replay = new InkView();
+  readonly ink: InkView;
+  private readonly replay: InkView;
   private size = 1;
   private centre: number[] = [0, 0, 0];
 
   constructor(private readonly stage: Stage) {
+    const gl = stage.renderer.getContext() as WebGL2RenderingContext;
+    this.ink = new InkView(gl, () => stage.invalidate());
+    this.replay = new InkView(gl, () => stage.invalidate());
+    stage.onRestored = () => {
+      this.ink.renew();
+      this.replay.renew();
+    };
     this.model = new ModelView(kLooks.light.clay);
     this.twin = new ModelView(kLooks.light.clay);
     this.model.group.add(this.ink.group);
@@ -38,10 +45,10 @@ export class ThreeView implements StudioView {
     this.drop();
     this.ink.show([]);
     this.replay.show([]);
-    this.model.show(model.corners);
-    this.model.shareWith(this.twin);
     this.size = target.diagonal;
     this.centre = [0, 1, 2].map((k) => (target.min[k]! + target.max[k]!) / 2);
+    this.model.show(model.corners, this.centre, this.size / 2);
+    this.model.shareWith(this.twin);
     this.stage.invalidate();
   }
 

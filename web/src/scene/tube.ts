@@ -18,6 +18,9 @@ export interface TubeStyle {
   sides: number;
 }
 
+/** Vertices of a ring of ink. */
+export const kRingSides = 8;
+
 const kFirstRings = 256;
 /** Writes a frame's width into out[0]: a number that is returned would be an object in every frame. */
 export type Width = (frame: number, out: Float64Array) => void;
@@ -31,6 +34,13 @@ const indexOfSides = new Map<number, BufferAttribute>();
 function stripIndex(sides: number, rings: number): BufferAttribute {
   const known = indexOfSides.get(sides);
   if (known && known.count >= (rings - 1) * sides * 6) return known;
+  const attribute = new BufferAttribute(stripFaces(sides, rings), 1);
+  indexOfSides.set(sides, attribute);
+  return attribute;
+}
+
+/** The triangles between consecutive rings. */
+export function stripFaces(sides: number, rings: number): Uint32Array {
   const index = new Uint32Array((rings - 1) * sides * 6);
   let at = 0;
   for (let ring = 0; ring + 1 < rings; ring += 1) {
@@ -42,9 +52,7 @@ function stripIndex(sides: number, rings: number): BufferAttribute {
       at += 6;
     }
   }
-  const attribute = new BufferAttribute(index, 1);
-  indexOfSides.set(sides, attribute);
-  return attribute;
+  return index;
 }
 
 /**
@@ -56,8 +64,8 @@ export class Tube {
   readonly geometry = new BufferGeometry();
   private readonly cosines: Float32Array;
   private readonly sines: Float32Array;
-  private positions: BufferAttribute;
-  private normals: BufferAttribute;
+  private position: BufferAttribute;
+  private normal: BufferAttribute;
   private capacity = 0;
   private rings = 0; // that stay: without the cap at the growing end
   private taken = 0; // ink vertices
@@ -82,8 +90,8 @@ export class Tube {
       this.cosines[k] = Math.cos((2 * Math.PI * k) / style.sides);
       this.sines[k] = Math.sin((2 * Math.PI * k) / style.sides);
     }
-    this.positions = new BufferAttribute(new Float32Array(0), 3);
-    this.normals = this.positions;
+    this.position = new BufferAttribute(new Float32Array(0), 3);
+    this.normal = this.position;
     this.geometry.boundingSphere = new Sphere(new Vector3(), 0);
     this.reserve(kFirstRings);
     this.geometry.setDrawRange(0, 0);
@@ -94,6 +102,19 @@ export class Tube {
     return this.taken;
   }
 
+  /** Rings that are shown; each is as many vertices as the tube has sides. */
+  get ringCount(): number {
+    return this.open ? this.drawn : this.rings;
+  }
+
+  /** 3 numbers a vertex of a ring; valid until the tube grows. */
+  get positions(): Float32Array {
+    return this.position.array as Float32Array;
+  }
+  get normals(): Float32Array {
+    return this.normal.array as Float32Array;
+  }
+
   dispose(): void {
     this.geometry.setIndex(null); // other tubes have the same
     this.geometry.dispose();
@@ -102,6 +123,7 @@ export class Tube {
   /** A new, empty tube in the same memory. */
   restart(radius: number, lift: number): void {
     this.style = { ...this.style, radius, lift };
+    this.drawn = 0;
     this.rings = 0;
     this.taken = 0;
     this.firstDirty = 0;
@@ -290,7 +312,7 @@ export class Tube {
     const lean = shape[2]!, out = Math.sqrt(Math.max(0, 1 - lean * lean));
     const r = this.radius[0]!, radius = r * shape[1]!, along = r * shape[0]!;
     const cx = this.centre[0]! + along * t[0]!, cy = this.centre[1]! + along * t[1]!, cz = this.centre[2]! + along * t[2]!;
-    const positions = this.positions.array as Float32Array, normals = this.normals.array as Float32Array;
+    const positions = this.positions, normals = this.normals;
     let at = this.rings * this.style.sides * 3;
     if (this.rings < this.firstDirty) this.firstDirty = this.rings;
     for (let k = 0; k < this.style.sides; k += 1) {
@@ -313,26 +335,26 @@ export class Tube {
     const size = capacity * this.style.sides * 3;
     const positions = new Float32Array(size), normals = new Float32Array(size);
     if (this.capacity > 0) {
-      positions.set(this.positions.array as Float32Array);
-      normals.set(this.normals.array as Float32Array);
+      positions.set(this.positions);
+      normals.set(this.normals);
     }
     this.dispose(); // frees the old buffers; the geometry itself goes on
-    this.positions = new BufferAttribute(positions, 3).setUsage(DynamicDrawUsage);
-    this.normals = new BufferAttribute(normals, 3).setUsage(DynamicDrawUsage);
-    this.geometry.setAttribute('position', this.positions);
-    this.geometry.setAttribute('normal', this.normals);
+    this.position = new BufferAttribute(positions, 3).setUsage(DynamicDrawUsage);
+    this.normal = new BufferAttribute(normals, 3).setUsage(DynamicDrawUsage);
+    this.geometry.setAttribute('position', this.position);
+    this.geometry.setAttribute('normal', this.normal);
     this.geometry.setIndex(stripIndex(this.style.sides, capacity));
     this.capacity = capacity;
     this.firstDirty = 0;
   }
 
   private upload(): void {
-    const end = this.open ? this.drawn : this.rings;
+    const end = this.ringCount;
     if (end > this.firstDirty) {
       const from = this.firstDirty * this.style.sides * 3;
       const count = (end - this.firstDirty) * this.style.sides * 3;
-      this.mark(this.positions, from, count);
-      this.mark(this.normals, from, count);
+      this.mark(this.position, from, count);
+      this.mark(this.normal, from, count);
     }
     this.firstDirty = Math.max(0, this.rings - 1);
     this.geometry.setDrawRange(0, Math.max(0, end - 1) * this.style.sides * 6);
