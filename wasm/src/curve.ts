@@ -37,6 +37,12 @@ export class Curve extends Handle {
     this.m._mimicry_curve_destroy(pointer);
   }
 
+  /** @internal Takes the place of a copy of itself, which is given back. */
+  become(copy: Curve): void {
+    this.exchange(copy);
+    copy.dispose();
+  }
+
   get pointCount(): number { return this.m._mimicry_curve_point_count(this.at); }
   /** Along the surface, model units. */
   get length(): number { return this.m._mimicry_curve_length(this.at); }

@@ -1,17 +1,20 @@
 import { kCoreBuild } from './builds.js';
 import { coreWasm } from './core_files.js';
 import factory from './core.js';
+import type { Curve } from './curve.js';
 import { MimicryError } from './error.js';
 import { givenBytes, givenCount, givenText } from './given.js';
+import { imageOf, receive, type Received, type TargetImage } from './hand_over.js';
 import { compiled } from './load.js';
 import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshInput, type MeshReport, type ShapeInfo } from './mesh.js';
-import { instantiate, type Module } from './module.js';
+import { codeOf, instantiate, type Module } from './module.js';
 import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
 import { Target, type TargetOptions } from './target.js';
 import { techniqueList, type TechniqueInfo } from './technique.js';
-import type { Bytes, WasmSource } from './types.js';
+import type { Bytes, CompiledModule, WasmSource } from './types.js';
 
 export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
+export type { Received, TargetImage } from './hand_over.js';
 export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
 export { MimicryError, type Status } from './error.js';
 export type { MeshArrays, MeshFile, MeshInput, MeshReport, ShapeInfo } from './mesh.js';
@@ -92,6 +95,22 @@ export class Mimicry {
   createTarget(mesh: MeshInput, name = 'mesh', options: TargetOptions = {}): Target {
     return Target.create(this.m, mesh, givenText(name, "a target's name"), options);
   }
+
+  /**
+   * A target, and curves on it, for another thread: whole, so that taking it costs no more than copying. Transfer
+   * `memory.buffer` with it, and dispose of this `Mimicry`, which should hold nothing else.
+   */
+  handOver(target: Target, curves: readonly Curve[] = []): TargetImage {
+    return imageOf(this.m, target, curves);
+  }
+
+  /** What another thread hands over, in a memory of its own that goes when nothing of it is used any more. Blocks for some milliseconds at a time. */
+  static receive(image: TargetImage): Promise<Received> {
+    return receive(factory, image);
+  }
+
+  /** The compiled code: another `Mimicry`, in a worker too, takes it as its `wasm` and starts at once. */
+  get code(): CompiledModule { return codeOf(this.m); }
 
   /**
    * The strokes of a mimicry-strokes file. One that cannot be used is left out, and onLeftOut is told where it stood and what is wrong

@@ -1,6 +1,6 @@
 import { messageOf, MimicryError, type Status } from './error.js';
 import type { Exports, Pointer } from './exports.js';
-import type { Bytes, Doubles, Integers } from './types.js';
+import type { Bytes, CompiledModule, Doubles, Integers } from './types.js';
 
 /** Emscripten's module. Its views are new objects after memory has grown: they are looked up at each use. */
 export interface Module extends Exports {
@@ -36,8 +36,18 @@ export async function instantiate(factory: Factory, code: object, onBakeProgress
       },
     };
     if (onBakeProgress) hooks.onBakeProgress = onBakeProgress;
-    factory(hooks).then(resolve, refuse);
+    factory(hooks).then((m) => {
+      codes.set(m, code);
+      resolve(m);
+    }, refuse);
   });
+}
+
+const codes = new WeakMap<Module, object>();
+
+/** The compiled code that a module runs. */
+export function codeOf(m: Module): CompiledModule {
+  return codes.get(m) as CompiledModule;
 }
 
 const kDecoder = new TextDecoder();
@@ -112,7 +122,7 @@ export function takeBytes(m: Module, bytes: Pointer): Bytes {
 /** Something in the module's memory that is given back once. */
 export abstract class Handle {
   /** kind: for messages; names of classes do not outlive minifiers. */
-  constructor(protected readonly m: Module, private pointer: Pointer, private readonly kind: string) {}
+  constructor(protected m: Module, private pointer: Pointer, private readonly kind: string) {}
 
   /** @internal */
   get at(): Pointer {
@@ -130,6 +140,12 @@ export abstract class Handle {
   dispose(): void {
     if (this.pointer !== 0) this.destroy(this.pointer);
     this.pointer = 0;
+  }
+
+  /** @internal Each is what the other was. */
+  protected exchange(other: Handle): void {
+    [this.m, other.m] = [other.m, this.m];
+    [this.pointer, other.pointer] = [other.pointer, this.pointer];
   }
 
   protected abstract destroy(pointer: Pointer): void;

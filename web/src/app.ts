@@ -1,7 +1,7 @@
 import { Documents, sentence } from './documents';
 import type { Autosave } from './drawing/autosave';
 import type { Core, CurveFormat } from './engine/core';
-import { warmLoader } from './engine/loader';
+import { Loader } from './engine/loader';
 import { shapeModel } from './engine/model';
 import { prepareEmbedding } from './engine/prepare';
 import { Files } from './files';
@@ -34,6 +34,8 @@ export class App implements Actions {
   private readonly settings = settingsStorage();
 
   constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, private readonly options: { antialias: boolean; embeddings: boolean }) {
+    const loader = new Loader(core);
+    loader.warm();
     this.stage = new Stage(canvas, options.antialias);
     this.view = new ThreeView(this.stage);
     this.studio = new Studio(core, this.view, readSettings(this.settings));
@@ -43,13 +45,13 @@ export class App implements Actions {
     new Keyboard(canvas, this.stage, this.studio, this.pointer, this, () => this.ui.help.showModal());
     const { messages } = this.ui;
     this.documents = new Documents(this.studio, {
-      modelOf: (source) => this.files.modelOf(source),
+      modelOf: (source, companions) => this.files.modelOf(source, companions),
       shown: (model, hasBake) => this.shown(model.source, hasBake),
       note: (text) => messages.note(text),
       problem: (text) => messages.problem(text),
       unsaved: (text) => text && messages.problem(text, { title: 'Save to a file', act: () => this.saveDrawing() }),
     });
-    this.files = new Files(root, this.studio, this.documents, this.ui, (axis) => this.turnModel(axis));
+    this.files = new Files(root, this.studio, this.documents, this.ui, loader, (axis) => this.turnModel(axis));
     root.append(drawingsPanel(this.documents, messages));
     followTabs(this.documents, messages);
     speakStrokes(this.studio, messages);
@@ -119,7 +121,6 @@ export class App implements Actions {
     const shape = new URLSearchParams(location.search).get('shape');
     const known = this.core.shapes.some((s) => s.name === shape);
     if (shape !== null || !(await this.documents.start())) this.documents.openModel(shapeModel(this.core, known ? shape! : kFirstShape));
-    warmLoader();
     void this.offerXr();
   }
 
@@ -155,20 +156,10 @@ export class App implements Actions {
       const bytes = new Uint8Array(await response.arrayBuffer());
       const { model } = this.studio.state.now;
       if (this.studio.state.now.hasEmbedding || !model || !('shape' in model.source) || model.source.shape !== shape) return;
-      await this.whenIdle();
-      this.studio.addEmbedding(bytes, `${shape}.mimicry`);
+      await this.files.embed(bytes, `${shape}.mimicry`);
     } catch {
       // Without it the techniques that need it wait for a bake.
     }
-  }
-
-  /** Between strokes. */
-  private whenIdle(): Promise<void> {
-    return new Promise((resolve) => {
-      const stop = this.studio.state.watch((now) => {
-        if (!now.drawing) queueMicrotask(() => { stop(); resolve(); });
-      });
-    });
   }
 
   openShape(name: string): void {
@@ -248,9 +239,7 @@ export class App implements Actions {
     void (async () => {
       try {
         const bytes = await prepareEmbedding(mesh, model!.source, controller.signal, (stage, fraction) => work.progress(`Preparing the model: ${stage}`, fraction));
-        if (this.studio.state.now.model !== model) return;
-        await this.whenIdle();
-        this.studio.addEmbedding(bytes, 'the prepared model');
+        if (this.studio.state.now.model !== model || !(await this.files.embed(bytes, 'the prepared model', controller.signal))) return;
         this.autosave.saveEmbedding(bytes);
         this.ui.messages.note('The model is prepared: all techniques work on it now.');
       } catch (error) {

@@ -8,6 +8,7 @@ import { indexedDbShelf, PatientShelf } from './drawing/shelf';
 import { Claims, Tabs, type Claim } from './drawing/tabs';
 import type { Curve, RecordedStroke, Target } from './engine/core';
 import { kAsIs } from './engine/up_axis';
+import type { Companions } from './engine/loader';
 import { kDefaults } from './settings';
 import { Store } from './store';
 import type { LoadedModel, ModelSource, Studio, StudioState } from './studio';
@@ -23,7 +24,7 @@ export interface OpenDocument {
 
 /** What the drawings need of the page around them. */
 export interface Host {
-  modelOf(source: ModelSource): Promise<LoadedModel>;
+  modelOf(source: ModelSource, companions: Companions): Promise<LoadedModel>;
   /** Another model is shown. Resolves when its bake is there, where the page brings one. */
   shown(model: LoadedModel, hasBake: boolean): Promise<void>;
   note(sentence: string): void;
@@ -96,11 +97,10 @@ export class Documents {
     return list.filter(({ id, strokes, isOwn }) => strokes > 0 || isOwn || id === this.open.now?.id);
   }
 
-  /** A new drawing on a model. Throws where it cannot be drawn on. */
+  /** A new drawing on a model. */
   openModel(model: LoadedModel): void {
-    const target = this.studio.prepare(model);
     this.leave();
-    this.show(model, target, null, [], model.turn);
+    this.show(model, [], model.turn);
     this.begin(modelTitle(model.source), this.storedModel()!);
     void this.host.shown(model, false);
   }
@@ -122,35 +122,40 @@ export class Documents {
     await this.autosave.settled();
     const [named, stored] = await Promise.all([this.library.named(id), this.library.read(id)]);
     if (!named || !stored) throw new Error('that drawing is not in this browser any more');
-    const model = await this.host.modelOf(stored.model.source);
-    const target = this.studio.prepare(model);
+    // The worker reads its curves: of many strokes that takes long.
+    const files = stored.entries.map((entry) => stored.parts.get(entry.curveKey) as Uint8Array);
+    const model = await this.host.modelOf(stored.model.source, {
+      embedding: stored.embedding && { name: 'the prepared model', bytes: stored.embedding }, curves: files,
+    });
+    const read = new Map(stored.entries.map((entry, i) => [entry.curveKey, model.made.curves[i] ?? null]));
     let recovered: Recovered;
     try {
-      recovered = this.content(target, stored, named);
+      recovered = this.content(model.made.target, stored, named, read);
     } catch (error) {
-      target.dispose();
+      model.made.target.dispose();
       throw error;
     }
     const claim = await this.claims.claim(id, () => void this.freed(id));
     const { technique } = this.studio.settings;
     this.leave();
-    this.show(model, target, stored.embedding, recovered.drawing, stored.model.turn);
+    this.show(model, recovered.drawing, stored.model.turn);
     this.take(claim, { id, name: named.name, isOwn: named.isOwn, writes: claim.isMine });
     if (claim.isMine) this.autosave.resume(id, modelTitle(model.source), stored.entries);
     else this.autosave.pause();
     this.remember(stored.entries, recovered.drawing);
     for (const remark of recovered.remarks) this.host.problem(remark);
+    if (model.made.unusable) this.host.problem(model.made.unusable);
     // A technique that needs the bake comes back with it.
     const resume = (): void => {
       if (this.studio.offers(technique) && this.studio.settings.technique === kDefaults.technique) this.studio.set({ technique });
     };
     resume();
-    void this.host.shown(model, stored.embedding !== null).then(resume);
+    void this.host.shown(model, this.studio.state.now.hasEmbedding).then(resume);
   }
 
   /** A drawing of a file, as a new one in the list. Throws where it cannot be read: the open one stays. */
   openContent(model: LoadedModel, stored: StoredModel, content: DrawingContent, title: string | null, fileName: string): void {
-    const target = this.studio.prepare(model);
+    const { target } = model.made;
     let recovered: Recovered;
     try {
       recovered = readDrawing(this.studio.core, target, content, fileName);
@@ -159,7 +164,7 @@ export class Documents {
       throw error;
     }
     this.leave();
-    this.show(model, target, null, recovered.drawing, stored.turn);
+    this.show(model, recovered.drawing, stored.turn);
     this.begin(title ?? modelTitle(model.source), this.storedModel()!, title !== null);
     this.autosave.save(this.studio.target!, recovered.drawing);
     for (const remark of recovered.remarks) this.host.problem(remark);
@@ -221,16 +226,9 @@ export class Documents {
     this.keptCurves.clear();
   }
 
-  private show(model: LoadedModel, target: Target, embedding: Uint8Array | null, drawing: Drawing, turn: readonly number[] = kAsIs): void {
+  private show(model: LoadedModel, drawing: Drawing, turn: readonly number[] = kAsIs): void {
     this.quietly(() => {
-      this.studio.open(model, target, turn);
-      if (embedding) {
-        try {
-          this.studio.addEmbedding(embedding, 'the prepared model');
-        } catch (error) {
-          this.host.problem(sentence(error));
-        }
-      }
+      this.studio.open(model, turn);
       this.studio.restore(drawing);
     });
   }
@@ -299,18 +297,16 @@ export class Documents {
     if (named && this.open.now?.id === now.id && named.name !== this.open.now.name) this.open.set({ ...this.open.now, name: named.name, isOwn: named.isOwn });
   }
 
-  private content(target: Target, stored: Stored, { name }: Pick<Named, 'name'>): Recovered {
+  /** read: its curves by key, where they were read before; null: they cannot be. */
+  private content(target: Target, stored: Stored, { name }: Pick<Named, 'name'>, read: ReadonlyMap<string, Curve | null> = this.keptCurves): Recovered {
     if (stored.file) return readDrawing(this.studio.core, target, stored.file, name);
     const parts = stored.entries.map((entry): Part => ({
       ...entry,
       stroke: (stored.parts.get(entry.strokeKey) as RecordedStroke | undefined) ?? null,
       curve: () => {
-        let curve = this.keptCurves.get(entry.curveKey);
-        if (!curve) {
-          [curve] = target.readCurves(stored.parts.get(entry.curveKey) as Uint8Array, entry.id);
-          this.autosave.isKept(curve!, entry.curveKey);
-        }
-        return curve!;
+        const curve = read.get(entry.curveKey) ?? target.readCurves(stored.parts.get(entry.curveKey) as Uint8Array, entry.id)[0]!;
+        this.autosave.isKept(curve, entry.curveKey);
+        return curve;
       },
     }));
     return recover(target, parts, name);

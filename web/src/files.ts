@@ -3,7 +3,7 @@ import { sentence } from './documents';
 import { readCurveFile } from './drawing/curve_file';
 import { colorBytes, formatOf, isDrawing, kDrawingEnding, keptCurves, readDrawingModel, writeDrawing } from './drawing/drawing_file';
 import type { CurveFormat } from './engine/core';
-import { loadModel } from './engine/loader';
+import type { Companions, Loader } from './engine/loader';
 import { shapeModel } from './engine/model';
 import type { LoadedModel, ModelSource, Studio } from './studio';
 import type { Interface } from './ui/interface';
@@ -22,7 +22,10 @@ export class Files {
   private loading: AbortController | null = null;
   private readonly picker = document.createElement('input');
 
-  constructor(root: HTMLElement, private readonly studio: Studio, private readonly documents: Documents, private readonly ui: Interface, private readonly turn: (axis: 'x' | 'z') => void) {
+  constructor(
+    root: HTMLElement, private readonly studio: Studio, private readonly documents: Documents, private readonly ui: Interface, private readonly loader: Loader,
+    private readonly turn: (axis: 'x' | 'z') => void,
+  ) {
     this.picker.type = 'file';
     this.picker.multiple = true;
     this.picker.hidden = true;
@@ -73,8 +76,30 @@ export class Files {
   }
 
   /** A model that was kept or comes with a drawing. */
-  async modelOf(source: ModelSource): Promise<LoadedModel> {
-    return 'shape' in source ? shapeModel(this.studio.core, source.shape) : this.load(source.file, source.bytes);
+  async modelOf(source: ModelSource, companions: Companions = {}): Promise<LoadedModel> {
+    if ('file' in source) return this.load(source.file, source.bytes, [], companions);
+    // A shape takes no longer here; what comes with it does.
+    if (!companions.embedding && !companions.curves?.length) return shapeModel(this.studio.core, source.shape);
+    return this.loader.shape(source.shape, { signal: new AbortController().signal }, companions);
+  }
+
+  /** The bake of the open model; false where another one is open by the time that it is made ready. */
+  async embed(bytes: Uint8Array, name: string, signal = new AbortController().signal): Promise<boolean> {
+    const { model } = this.studio.state.now;
+    const target = await this.loader.withEmbedding(this.studio.mesh!, model!.name, { name, bytes }, { signal });
+    await this.whenIdle();
+    if (this.studio.state.now.model !== model) return false;
+    this.studio.embed(target);
+    return true;
+  }
+
+  /** Between strokes. */
+  private whenIdle(): Promise<void> {
+    return new Promise((resolve) => {
+      const stop = this.studio.state.watch((now) => {
+        if (!now.drawing) queueMicrotask(() => { stop(); resolve(); });
+      });
+    });
   }
 
   private async openFile(file: File, beside: readonly File[]): Promise<void> {
@@ -96,7 +121,7 @@ export class Files {
     if (file.size > 1e9) throw new Error(`${file.name}: ${(file.size / 1e9).toFixed(1)} GB is more than a browser can hold; split it`);
     const bytes = new Uint8Array(await file.arrayBuffer());
     if (/\.mimicry$/i.test(file.name)) {
-      this.studio.addEmbedding(bytes, file.name);
+      if (!(await this.embed(bytes, file.name))) return;
       this.documents.autosave.saveEmbedding(bytes);
       this.ui.messages.note('The model is prepared: all techniques work on it.');
     } else if (isDrawing(bytes)) {
@@ -150,12 +175,12 @@ export class Files {
     this.ui.messages.note(`${plural(curves.length, 'curve')} added${leftOut > 0 ? `; ${leftOut} could not be read` : ''}. They come without recorded strokes, so other techniques cannot redraw them.`);
   }
 
-  private async load(name: string, content: Blob | Uint8Array, beside: readonly File[] = []): Promise<LoadedModel> {
+  private async load(name: string, content: Blob | Uint8Array, beside: readonly File[] = [], companions: Companions = {}): Promise<LoadedModel> {
     this.loading?.abort();
     const controller = (this.loading = new AbortController());
     const work = this.ui.messages.work(`Reading ${name}`, () => controller.abort());
     try {
-      return await loadModel(name, content, beside, (stage, fraction) => work.progress(stage, fraction), controller.signal);
+      return await this.loader.file(name, content, beside, { signal: controller.signal, onProgress: (stage, fraction) => work.progress(stage, fraction) }, companions);
     } finally {
       work.done();
     }

@@ -25,6 +25,8 @@ export interface LoadedModel {
   turn: readonly number[];
   /** What a user should know about the mesh, as sentences. */
   remarks: readonly string[];
+  /** What is drawn on, and the curves that were kept with it (null: it cannot be read); why its bake is of no use, if so. */
+  made: { target: Target; curves: readonly (Curve | null)[]; unusable: string | null };
 }
 
 /** What shows the studio: three.js, or nothing in tests. The live calls come once a frame. */
@@ -96,13 +98,9 @@ export class Studio {
 
   // Models ------------------------------------------------------------------------------------
 
-  /** What `open` shows. Throws where the model cannot be drawn on. */
-  prepare(model: LoadedModel): Target {
-    return this.core.createTarget(model.mesh, model.name);
-  }
-
-  /** Shows another model; the drawing begins anew. Throws where it cannot be drawn on: all stays as it was. */
-  open(model: LoadedModel, target: Target = this.prepare(model), turn = model.turn): void {
+  /** Shows another model, whose target is the studio's from now on; the drawing begins anew. */
+  open(model: LoadedModel, turn = model.turn): void {
+    const { target } = model.made;
     this.endStroke();
     this.forgetAll();
     this.target?.dispose();
@@ -112,25 +110,29 @@ export class Studio {
     this.view.showModel(model, target);
     this.view.place(place);
     this.state.update({
-      history: kEmptyHistory, hasEmbedding: false, modelToWorld: place, turn,
+      history: kEmptyHistory, hasEmbedding: target.hasEmbedding, modelToWorld: place, turn,
       model: { name: model.name, source: model.source, faces: model.mesh.faces.length / 3, remarks: [...model.remarks, ...target.notes] },
     });
-    if (this.technique(this.settings.technique).needsBake) this.set({ technique: kDefaults.technique });
+    if (!this.offers(this.settings.technique)) this.set({ technique: kDefaults.technique });
   }
 
   get mesh(): MeshArrays | null {
     return this.loaded?.mesh ?? null;
   }
 
-  /** Adds the bake of this model. Throws where it was made for another one. */
-  addEmbedding(bytes: Uint8Array, name: string): void {
-    if (!this.target) return;
-    const target = this.target.withEmbedding(bytes, name);
+  /** The open model with its bake; every curve moves there. */
+  embed(target: Target): void {
+    const from = this.target;
+    if (!from) return;
     this.endStroke();
     this.closeSessions();
-    this.target.dispose();
+    this.replayed?.dispose();
+    this.replayed = null;
+    for (const curve of this.curves) target.adopt(curve, from);
+    from.dispose();
     this.target = target;
     this.state.update({ hasEmbedding: true });
+    this.replay();
   }
 
   /** The model moves, is turned or scaled; ink goes with it. */

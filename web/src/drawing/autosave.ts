@@ -53,7 +53,7 @@ export class Autosave {
     const entries = drawing.map((drawn): StoredEntry => {
       const strokeKey = `stroke:${drawn.id}`, curveKey = this.curveKey(drawn.id, drawn.curve);
       keep(strokeKey, () => drawn.stroke);
-      keep(curveKey, () => target.writeCurves([drawn.curve], 'json', new Uint8Array(3), 1));
+      keep(curveKey, () => target.writeCurves([drawn.curve], 'packed'));
       return { id: drawn.id, mirror: drawn.mirror, style: drawn.style, kept: drawn.kept, strokeKey, curveKey };
     });
     const needed = new Set(entries.flatMap((e) => [e.strokeKey, e.curveKey]));

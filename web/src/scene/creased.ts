@@ -1,9 +1,10 @@
 import { equalPlaces } from './places';
 
-/** What is shown of a mesh: three corners a face, each with its own normal. */
+/** What is shown of a mesh: its vertices, once for each normal that one has. */
 export interface Corners {
-  positions: Float32Array; // 9 F
-  normals: Float32Array; // 9 F
+  positions: Float32Array; // 3 a corner
+  normals: Float32Array; // 3 a corner
+  faces: Uint32Array; // 3 corners a face
 }
 
 /**
@@ -51,7 +52,10 @@ export function creasedCorners(positions: Float64Array, faces: Int32Array, creas
   }
 
   const threshold = Math.cos(crease_rad);
-  const out: Corners = { positions: new Float32Array(3 * faces.length), normals: new Float32Array(3 * faces.length) };
+  const out = { positions: new Float32Array(3 * faces.length), normals: new Float32Array(3 * faces.length), faces: new Uint32Array(faces.length) };
+  const latest = new Int32Array(positions.length / 3).fill(-1), earlier = new Int32Array(faces.length); // a vertex's corners
+  const normal = new Float32Array(3);
+  let made = 0;
   for (let c = 0; c < faces.length; c += 1) {
     const v = place[faces[c]!]!, own = 3 * Math.floor(c / 3);
     let x = 0, y = 0, z = 0;
@@ -64,8 +68,19 @@ export function creasedCorners(positions: Float64Array, faces: Int32Array, creas
     }
     let n = Math.hypot(x, y, z);
     if (!(n > 0)) { x = normals[own]!; y = normals[own + 1]!; z = normals[own + 2]!; n = 1; }
-    for (let d = 0; d < 3; d += 1) out.positions[3 * c + d] = positions[3 * v + d]!;
-    out.normals[3 * c] = x / n; out.normals[3 * c + 1] = y / n; out.normals[3 * c + 2] = z / n;
+    normal[0] = x / n; normal[1] = y / n; normal[2] = z / n;
+    // Corners that see the same faces sum the same numbers in the same order.
+    let corner = latest[v]!;
+    while (corner >= 0 && (out.normals[3 * corner] !== normal[0] || out.normals[3 * corner + 1] !== normal[1] || out.normals[3 * corner + 2] !== normal[2])) corner = earlier[corner]!;
+    if (corner < 0) {
+      corner = made;
+      made += 1;
+      earlier[corner] = latest[v]!;
+      latest[v] = corner;
+      for (let d = 0; d < 3; d += 1) out.positions[3 * corner + d] = positions[3 * v + d]!;
+      out.normals.set(normal, 3 * corner);
+    }
+    out.faces[c] = corner;
   }
-  return out;
+  return { positions: out.positions.slice(0, 3 * made), normals: out.normals.slice(0, 3 * made), faces: out.faces };
 }

@@ -1,5 +1,5 @@
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion, Vector3,
+  BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion, Sphere, Vector3,
 } from 'three';
 import type { Corners } from './creased';
 
@@ -25,12 +25,14 @@ export class ModelView {
     this.mesh.material.color.set(color);
   }
 
-  show(corners: Corners): void {
+  /** Within `radius` of `centre`: looking for it takes long where there are many corners. */
+  show(corners: Corners, centre: readonly number[], radius: number): void {
     this.mesh.geometry.dispose();
     this.mesh.geometry = new BufferGeometry();
     this.mesh.geometry.setAttribute('position', new BufferAttribute(corners.positions, 3));
     this.mesh.geometry.setAttribute('normal', new BufferAttribute(corners.normals, 3));
-    this.mesh.geometry.computeBoundingSphere();
+    this.mesh.geometry.setIndex(new BufferAttribute(corners.faces, 1));
+    this.mesh.geometry.boundingSphere = new Sphere(new Vector3(centre[0], centre[1], centre[2]), radius);
   }
 
   /** The same triangles in a second view. */

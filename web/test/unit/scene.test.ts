@@ -102,21 +102,27 @@ describe('tube', () => {
 });
 
 describe('creasedCorners', () => {
+  const at = <T extends Float32Array | Float64Array>(array: T, vertex: number): T => array.subarray(3 * vertex, 3 * vertex + 3) as T;
+
   it('keeps a cube sharp and a flat quad flat', () => {
     // Two faces of a box that meet at a right angle, two triangles each.
     const positions = new Float64Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, -1, 0, 1, -1]);
     const faces = new Int32Array([0, 1, 2, 0, 2, 3, 4, 0, 3, 4, 3, 5]);
-    const { normals } = creasedCorners(positions, faces, 0.6);
-    for (let c = 0; c < 6; c += 1) expect([...normals.subarray(3 * c, 3 * c + 3)]).toEqual([0, 0, 1]);
-    for (let c = 6; c < 12; c += 1) expect(normals[3 * c]).toBeCloseTo(-1, 6);
+    const corners = creasedCorners(positions, faces, 0.6);
+    for (let c = 0; c < 6; c += 1) expect([...at(corners.normals, corners.faces[c]!)]).toEqual([0, 0, 1]);
+    for (let c = 6; c < 12; c += 1) expect(at(corners.normals, corners.faces[c]!)[0]).toBeCloseTo(-1, 6);
+    // Four vertices of each quad, each with the quad's normal.
+    expect(corners.normals).toHaveLength(3 * 8);
+    for (let c = 0; c < 12; c += 1) expect([...at(corners.positions, corners.faces[c]!)]).toEqual([...at(positions, faces[c]!)]);
   });
 
   it('smooths what is nearly flat', () => {
     const positions = new Float64Array([0, 0, 0, 1, 0, 0.1, 1, 1, 0.1, 0, 1, 0, -1, 0, 0.1, -1, 1, 0.1]);
     const faces = new Int32Array([0, 1, 2, 0, 2, 3, 4, 0, 3, 4, 3, 5]);
-    const { normals } = creasedCorners(positions, faces, 0.6);
-    expect(normals[0]).toBeCloseTo(normals[9 * 2 + 3]!, 6);
-    expect(Math.abs(normals[0]!)).toBeLessThan(0.06);
+    const corners = creasedCorners(positions, faces, 0.6);
+    expect(corners.faces[0]).toBe(corners.faces[7]); // vertex 0 in the first and in the third face
+    expect(Math.abs(at(corners.normals, corners.faces[0]!)[0]!)).toBeLessThan(0.06);
+    expect(corners.normals).toHaveLength(3 * 6);
   });
 
   it('survives faces without area', () => {

@@ -8,7 +8,7 @@ import { Library } from '../../src/drawing/library';
 import { recover } from '../../src/drawing/recover';
 import { MemoryShelf, PatientShelf } from '../../src/drawing/shelf';
 import type { RecordedStroke } from '../../src/engine/core';
-import { prepareModel, shapeModel } from '../../src/engine/model';
+import { makeTarget, shapeModel } from '../../src/engine/model';
 import { Studio, type StudioView } from '../../src/studio';
 import { random } from './random';
 
@@ -146,7 +146,7 @@ describe('studio', () => {
   it('techniques that need a bake are offered with one only', () => {
     expect(studio.offers('mimicry')).toBe(false);
     expect(studio.offers('mimicry-live')).toBe(true);
-    expect(() => studio.addEmbedding(new Uint8Array([1, 2, 3]), 'bad.mimicry')).toThrow(/bad\.mimicry/);
+    expect(() => studio.target!.withEmbedding(new Uint8Array([1, 2, 3]), 'bad.mimicry')).toThrow(/bad\.mimicry/);
     expect(studio.offers('mimicry')).toBe(false);
   });
 
@@ -176,8 +176,8 @@ describe('studio', () => {
   it('a model that cannot be drawn on leaves everything as it was', () => {
     draw();
     const before = studio.state.now;
-    expect(() => prepareModel(core, { positions: new Float64Array([0, 0, 0, 1, NaN, 0, 0, 1, 0]), faces: new Int32Array([0, 1, 2]), metresPerUnit: 1 }, 'nan.obj', { shape: 'x' })).toThrow(/nan\.obj: 1 vertex has/);
-    expect(() => prepareModel(core, { positions: new Float64Array(9), faces: new Int32Array(0), metresPerUnit: 1 }, 'points.ply', { shape: 'x' })).toThrow(/points\.ply: there are no triangles/);
+    expect(() => makeTarget(core, { positions: new Float64Array([0, 0, 0, 1, NaN, 0, 0, 1, 0]), faces: new Int32Array([0, 1, 2]), metresPerUnit: 1 }, 'nan.obj')).toThrow(/nan\.obj: 1 vertex has/);
+    expect(() => makeTarget(core, { positions: new Float64Array(9), faces: new Int32Array(0), metresPerUnit: 1 }, 'points.ply')).toThrow(/points\.ply: there are no triangles/);
     expect(studio.state.now).toBe(before);
   });
 

@@ -1,0 +1,160 @@
+import { writeFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { torusObj } from './meshes';
+import { Lab, messages, type Opened } from './studio_page';
+
+let lab: Lab;
+let opened: Opened;
+let page: Page;
+const folder = mkdtempSync(join(tmpdir(), 'studio-'));
+
+beforeAll(async () => { lab = await Lab.start(); });
+afterAll(async () => {
+  await lab.stop();
+  rmSync(folder, { recursive: true });
+});
+afterEach(async () => {
+  expect(opened.errors).toEqual([]);
+  await opened.context.close();
+});
+
+async function open(): Promise<void> {
+  opened = await lab.open();
+  page = opened.page;
+}
+
+/** Strokes of 150 frames all over the model, in all colours. */
+function draw(count: number): Promise<void> {
+  return page.evaluate((n) => {
+    const { studio } = window.studio;
+    const frame = new Float64Array(17);
+    frame.set([0, 1.15, 0.3, 0, 0, 0, 1], 1);
+    frame.set([0, 0, 0, 1], 11);
+    frame[15] = 1;
+    frame[16] = -1;
+    for (let curve = 0; curve < n; curve += 1) {
+      studio.set({ style: { ...studio.settings.style, color: ['#d6401f', '#2469d6', '#fbfaf7'][curve % 3]! } });
+      studio.beginStroke();
+      for (let i = 0; i < 150; i += 1) {
+        const t = i / 150, a = 0.3 * curve;
+        frame[0] = curve * 10 + i / 90;
+        frame[8] = 0.03 + 0.05 * Math.sin(4 * t + a);
+        frame[9] = 1.08 + 0.06 * Math.cos(3 * t + 1.7 * a);
+        frame[10] = -0.42;
+        studio.addFrame(frame);
+      }
+      studio.endStroke();
+    }
+  }, count);
+}
+
+interface Picture {
+  calls: number;
+  /** Pixels of the strokes' colours. */
+  red: number;
+  blue: number;
+}
+
+/** What the next picture shows. */
+function picture(): Promise<Picture> {
+  return page.evaluate(() => {
+    const { renderer, scene, camera } = window.studio.stage;
+    renderer.render(scene, camera);
+    const gl = renderer.getContext(), width = gl.drawingBufferWidth, height = gl.drawingBufferHeight;
+    const pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let red = 0, blue = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (pixels[i]! > 2 * pixels[i + 2]!) red += 1;
+      if (pixels[i + 2]! > 2 * pixels[i]!) blue += 1;
+    }
+    if (gl.getError() !== 0) throw new Error('the graphics driver reports an error');
+    return { calls: renderer.info.render.calls, red, blue };
+  });
+}
+
+describe('many strokes', () => {
+  it('are drawn at once, and each can still be taken away and brought back', async () => {
+    await open();
+    await draw(300);
+    const all = await picture();
+    expect(all.calls).toBeLessThanOrEqual(20);
+    expect(all.red).toBeGreaterThan(500);
+    expect(all.blue).toBeGreaterThan(500);
+    const change = (act: () => void): Promise<void> => page.evaluate(act);
+    await change(() => { for (let k = 0; k < 300; k += 1) window.studio.studio.undo(); });
+    const none = await picture();
+    expect([none.red, none.blue]).toEqual([0, 0]);
+    await change(() => { for (let k = 0; k < 300; k += 1) window.studio.studio.redo(); });
+    await expect.poll(async () => (await picture()).red).toBe(all.red);
+    // One in the middle goes; what is drawn next takes its place without touching the others.
+    await change(() => {
+      const { studio } = window.studio;
+      const { history } = studio.state.now;
+      studio.state.update({ history: { ...history, drawing: history.drawing.filter(({ style }) => style.color !== '#2469d6') } });
+    });
+    const without = await picture();
+    expect(without.blue).toBe(0);
+    expect(without.red).toBeGreaterThanOrEqual(all.red);
+    await change(() => window.studio.studio.clear());
+    expect((await picture()).red).toBe(0);
+    await change(() => window.studio.studio.undo());
+    await expect.poll(async () => (await picture()).red).toBe(without.red);
+  });
+
+  it('come back with the graphics card', async () => {
+    await open();
+    await draw(30);
+    const before = await picture();
+    expect(before.red).toBeGreaterThan(500);
+    await page.evaluate(async () => {
+      const { renderer } = window.studio.stage, { canvas } = renderer.getContext();
+      const happens = (event: string): Promise<void> => new Promise((done) => canvas.addEventListener(event, () => done(), { once: true }));
+      const lost = happens('webglcontextlost');
+      renderer.forceContextLoss();
+      await lost;
+      await new Promise((done) => setTimeout(done)); // after the event
+      const back = happens('webglcontextrestored');
+      renderer.forceContextRestore();
+      await back;
+    });
+    await expect.poll(picture).toEqual(before);
+    await draw(2);
+    expect((await messages(page)).join()).toMatch(/graphics driver/);
+  });
+});
+
+describe('large models', () => {
+  it('are made ready beside the page, and their memory goes when a small one follows', async () => {
+    await open();
+    const file = join(folder, 'large.obj');
+    writeFileSync(file, torusObj(120));
+    const core = await page.evaluate(() => {
+      const { core } = window.studio.studio;
+      // The page itself makes nothing of it.
+      core.createTarget = () => { throw new Error('made by the page'); };
+      core.readMeshFiles = () => { throw new Error('read by the page'); };
+      return core.memoryBytes;
+    });
+    await page.setInputFiles('input[type=file]', file);
+    await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'large.obj');
+    expect(await page.evaluate(() => window.studio.studio.state.now.model!.faces)).toBe(86400);
+    await draw(3);
+    expect(await page.evaluate(() => window.studio.studio.state.now.history.drawing.length)).toBeGreaterThan(0);
+    expect(await page.evaluate(() => window.studio.studio.core.memoryBytes)).toBe(core);
+    const small = join(folder, 'small.obj');
+    writeFileSync(small, torusObj(8));
+    await page.evaluate(() => Object.assign(window, { before: new WeakRef(window.studio.studio.target!) }));
+    await page.setInputFiles('input[type=file]', small);
+    await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'small.obj');
+    // Nothing holds it, so that the browser takes its memory back when it wants to.
+    await expect.poll(() => page.evaluate(async () => {
+      await new Promise((done) => setTimeout(done, 50));
+      (window as unknown as { gc(): void }).gc();
+      return (window as unknown as { before: WeakRef<object> }).before.deref() === undefined;
+    })).toBe(true);
+  });
+});
