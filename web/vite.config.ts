@@ -1,11 +1,9 @@
-import { existsSync, readdirSync } from 'node:fs';
+import { existsSync } from 'node:fs';
 import { defineConfig } from 'vite';
 import { offline } from './scripts/offline';
 
 if (!existsSync(new URL('../wasm/dist/split.js', import.meta.url)))
   throw new Error('wasm/dist is missing or of an earlier version; in the repository\'s root: scripts/setup; cmake --preset wasm; cmake --build --preset wasm --target wasm_package');
-
-const embeddings = new URL('./public/embeddings', import.meta.url);
 
 export default defineConfig({
   base: './',
@@ -15,8 +13,4 @@ export default defineConfig({
   optimizeDeps: { exclude: ['mimicry'] },
   worker: { format: 'es' },
   build: { target: 'es2022', chunkSizeWarningLimit: 900 },
-  define: {
-    // The built-in models that were baked before the page was built (scripts/embeddings.mjs).
-    __EMBEDDINGS__: JSON.stringify(existsSync(embeddings) ? readdirSync(embeddings).map((name) => name.replace(/\.mimicry$/, '')) : []),
-  },
 });

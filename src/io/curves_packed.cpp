@@ -18,12 +18,12 @@ using curve::Piece;
 using curve::PieceKind;
 
 // Its first byte begins no text: in UTF-8 it is the middle of a letter.
-constexpr std::string_view kMagic = "\x93mimicry-curves\x01";
+constexpr std::string_view kPackedMagic = "\x93mimicry-curves\x01";
 
 class Packer {
  public:
   static constexpr bool kReads = false;
-  std::string out{kMagic};
+  std::string out{kPackedMagic};
 
   void u32(const std::uint32_t& value) { append_little_endian(out, value); }
   void f64(const double& value) { append_little_endian(out, value); }
@@ -80,28 +80,28 @@ class Unpacker {
 // The layout, said once for both directions.
 
 template <class Archive>
-void index(Archive& archive, auto& value) {
+void pass_index(Archive& archive, auto& value) {
   auto bits = static_cast<std::uint32_t>(value);
   archive.u32(bits);
   if constexpr (Archive::kReads) value = static_cast<Index>(bits);
 }
 
 template <class Archive>
-void numbers(Archive& archive, auto& values) {
+void pass_vector(Archive& archive, auto& values) {
   for (int k = 0; k < 3; ++k) archive.f64(values[k]);
 }
 
 template <class Archive>
-void list(Archive& archive, auto& values, std::size_t bytes_each, auto&& each) {
+void pass_list(Archive& archive, auto& values, std::size_t bytes_each, auto&& each) {
   const std::size_t size = archive.count(values.size(), bytes_each);
   if constexpr (Archive::kReads) values.resize(size);
   for (auto& value : values) each(value);
 }
 
 template <class Archive>
-void options(Archive& archive, auto& all) {
+void pass_options(Archive& archive, auto& all) {
   const auto values_of = [&](auto& values) {
-    list(archive, values, 8, [&](auto& value) { archive.f64(value); });
+    pass_list(archive, values, 8, [&](auto& value) { archive.f64(value); });
   };
   const std::size_t size = archive.count(all.size(), 8);
   if constexpr (Archive::kReads) {
@@ -123,16 +123,16 @@ void pass_curve(Archive& archive, auto& curve) {
   std::uint32_t closed = curve.closed;
   archive.u32(closed);
   if constexpr (Archive::kReads) curve.closed = closed != 0;
-  list(archive, curve.points, 96, [&](auto& p) {
-    index(archive, p.surface.face);
-    index(archive, p.frame);
-    numbers(archive, p.surface.bary);
-    numbers(archive, p.position);
-    numbers(archive, p.normal);
+  pass_list(archive, curve.points, 96, [&](auto& p) {
+    pass_index(archive, p.surface.face);
+    pass_index(archive, p.frame);
+    pass_vector(archive, p.surface.bary);
+    pass_vector(archive, p.position);
+    pass_vector(archive, p.normal);
     archive.f64(p.time_s);
     archive.f64(p.pen_distance);
   });
-  list(archive, curve.pieces, 16, [&](auto& piece) {
+  pass_list(archive, curve.pieces, 16, [&](auto& piece) {
     auto kind = static_cast<std::uint32_t>(piece.kind);
     archive.u32(kind);
     archive.u32(piece.crossing_count);
@@ -143,8 +143,8 @@ void pass_curve(Archive& archive, auto& curve) {
       piece.kind = static_cast<PieceKind>(kind);
     }
   });
-  list(archive, curve.crossings, 12, [&](auto& crossing) {
-    index(archive, crossing.half_edge);
+  pass_list(archive, curve.crossings, 12, [&](auto& crossing) {
+    pass_index(archive, crossing.half_edge);
     archive.f64(crossing.t);
   });
 }
@@ -153,10 +153,10 @@ template <class Archive>
 void pass_record(Archive& archive, auto& record) {
   archive.text(record.stroke);
   archive.text(record.technique);
-  options(archive, record.options);
+  pass_options(archive, record.options);
   auto& place = record.model_to_world;
   for (int k = 0; k < 4; ++k) archive.f64(place.rotation.coeffs()[k]);
-  numbers(archive, place.translation);
+  pass_vector(archive, place.translation);
   archive.f64(place.scale);
   pass_curve(archive, record.curve);
 }
@@ -202,8 +202,8 @@ void check_curve(const Unpacker& from, curve::ProjectedCurve& curve, const Trian
 std::string write_curves_packed(const CurveSet& set, const TriangleMesh& mesh) {
   Packer packer;
   const Index vertices = source_vertex_count(mesh), faces = mesh.face_count();
-  index(packer, vertices);
-  index(packer, faces);
+  pass_index(packer, vertices);
+  pass_index(packer, faces);
   packer.text(set.target);
   packer.count(set.curves.size(), 1);
   for (CurveRecord record : set.curves) {
@@ -214,7 +214,8 @@ std::string write_curves_packed(const CurveSet& set, const TriangleMesh& mesh) {
 }
 
 bool is_packed_curves(std::string_view bytes) {
-  return bytes.substr(0, kMagic.size() - 1) == kMagic.substr(0, kMagic.size() - 1);
+  return bytes.substr(0, kPackedMagic.size() - 1) ==
+         kPackedMagic.substr(0, kPackedMagic.size() - 1);
 }
 
 CurveSet read_curves_packed(std::string_view bytes, std::string_view name,
@@ -222,13 +223,13 @@ CurveSet read_curves_packed(std::string_view bytes, std::string_view name,
   const std::string file(name);
   if (!is_packed_curves(bytes))
     throw Error(ErrorKind::invalid_input, file + ": holds no packed curves");
-  if (!bytes.starts_with(kMagic))
+  if (!bytes.starts_with(kPackedMagic))
     throw Error(ErrorKind::unsupported,
                 file + ": packed curves of another version; update the program");
-  Unpacker from(bytes.substr(kMagic.size()), file);
+  Unpacker from(bytes.substr(kPackedMagic.size()), file);
   Index vertices = 0, faces = 0;
-  index(from, vertices);
-  index(from, faces);
+  pass_index(from, vertices);
+  pass_index(from, faces);
   CurveSet set;
   from.text(set.target);
   if (vertices != source_vertex_count(mesh) || faces != mesh.face_count())

@@ -1,11 +1,11 @@
-// Bakes built-in models into public/embeddings, with the shapes that the page itself makes: an
+// Bakes built-in models into embeddings, with the shapes that the page itself makes: an
 // embedding belongs to its mesh to the last bit.
 // usage: node scripts/embeddings.mjs SHAPE...
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { Mimicry } from 'mimicry';
 import { bakeHere } from 'mimicry/bake';
 
-const folder = new URL('../public/embeddings/', import.meta.url);
+const folder = new URL('../embeddings/', import.meta.url);
 
 mkdirSync(folder, { recursive: true });
 const core = await new Mimicry().ready;

@@ -1,6 +1,7 @@
 import { Documents, sentence } from './documents';
 import type { Autosave } from './drawing/autosave';
 import type { Core, CurveFormat } from './engine/core';
+import { kEmbeddings } from './engine/embeddings';
 import { Loader } from './engine/loader';
 import { shapeModel } from './engine/model';
 import { prepareEmbedding } from './engine/prepare';
@@ -148,10 +149,11 @@ export class App implements Actions {
 
   /** A built-in model's bake, if the server has it: after the first picture, when there is time. */
   private async fetchEmbedding(shape: string): Promise<void> {
-    if (!this.options.embeddings || !__EMBEDDINGS__.includes(shape)) return;
+    const url = this.options.embeddings ? kEmbeddings.get(shape) : undefined;
+    if (!url) return;
     await new Promise((resolve) => ('requestIdleCallback' in window ? requestIdleCallback(resolve, { timeout: 3000 }) : setTimeout(resolve, 1000)));
     try {
-      const response = await fetch(`embeddings/${shape}.mimicry`);
+      const response = await fetch(url);
       if (!response.ok) return;
       const bytes = new Uint8Array(await response.arrayBuffer());
       const { model } = this.studio.state.now;
@@ -238,7 +240,7 @@ export class App implements Actions {
     const work = this.ui.messages.work('Preparing the model', () => controller.abort());
     void (async () => {
       try {
-        const bytes = await prepareEmbedding(mesh, model!.source, controller.signal, (stage, fraction) => work.progress(`Preparing the model: ${stage}`, fraction));
+        const bytes = await prepareEmbedding(mesh, model!.source, controller.signal, (text, fraction) => work.progress(text, fraction));
         if (this.studio.state.now.model !== model || !(await this.files.embed(bytes, 'the prepared model', controller.signal))) return;
         this.autosave.saveEmbedding(bytes);
         this.ui.messages.note('The model is prepared: all techniques work on it now.');

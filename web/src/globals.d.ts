@@ -1,2 +1,1 @@
-/** Built-in models whose bake comes with the page. */
-declare const __EMBEDDINGS__: readonly string[];
+/// <reference types="vite/client" />

@@ -320,7 +320,7 @@ describe('preparing', () => {
 
 describe('a .mimicry file', () => {
   it('switches the techniques on that need it, on its own model only', async () => {
-    const torus = { name: 'torus.mimicry', bytes: readFileSync('public/embeddings/torus.mimicry') };
+    const torus = { name: 'torus.mimicry', bytes: readFileSync('embeddings/torus.mimicry') };
     await choose(torus);
     await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/of another mesh/);
     await page.evaluate(() => window.studio.openShape('torus'));
