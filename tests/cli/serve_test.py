@@ -39,20 +39,32 @@ class Serve(Case):
                 s.connect((own_address(), server.port))
         self.assertEqual((server.code, server.errors), (0, ""))
 
-    def test_compresses_once_and_sends_what_is_known_once(self):
+    def test_sends_the_form_that_the_browser_takes(self):
+        path = "/assets/main-3c4d.js"
+        forms = {"br": b"brotli of it", "gzip": gzip.compress(SCRIPT)}
+        assets = pathlib.Path(self.work) / "studio" / "assets"
+        assets.mkdir(parents=True)
+        for coding, ending in [("br", ".br"), ("gzip", ".gz")]:
+            (assets / ("main-3c4d.js" + ending)).write_bytes(forms[coding])
+        (assets / "alone.gz").write_bytes(b"no form of anything")
         with Served(self.work) as server:
-            path = "/assets/main-3c4d.js"
-            status, headers, body = server.ask("GET", path, Accept_Encoding="gzip, br")
-            self.assertEqual((headers["Content-Encoding"], gzip.decompress(body), headers["Vary"]), ("gzip", SCRIPT, "Accept-Encoding"))
-            for accepted in ["identity", "gzip;q=0", "br"]:
-                self.assertEqual(server.ask("GET", path, Accept_Encoding=accepted)[2], SCRIPT)
-            tag = headers["ETag"]
-            status, headers, body = server.ask("GET", path, Accept_Encoding="gzip", If_None_Match=f'"other", {tag}')
-            self.assertEqual((status, body, headers["ETag"]), (304, b"", tag))
-            # Its plain form is another thing.
-            self.assertEqual(server.ask("GET", path, If_None_Match=tag)[0], 200)
+            tags = set()
+            for accepted, coding in [("gzip, deflate, br, zstd", "br"), ("gzip", "gzip"), ("br;q=0, gzip;q=0.5", "gzip"), ("br ; q=1", "br"),
+                                     ("identity", None), ("gzip;q=0", None), ("xbr, brx", None), ("", None)]:
+                status, headers, body = server.ask("GET", path, Accept_Encoding=accepted)
+                self.assertEqual((status, headers.get("Content-Encoding"), body), (200, coding, forms.get(coding, SCRIPT)), accepted)
+                self.assertEqual((headers["Vary"], headers["Content-Type"]), ("Accept-Encoding", "text/javascript; charset=utf-8"))
+                self.assertIn("immutable", headers["Cache-Control"])
+                tags.add(headers["ETag"])
+                again = server.ask("GET", path, Accept_Encoding=accepted, If_None_Match=f'"other", {headers["ETag"]}')
+                self.assertEqual((again[0], again[2], again[1]["ETag"]), (304, b"", headers["ETag"]))
+            # Each form is another thing.
+            self.assertEqual(len(tags), 3)
             status, headers, body = server.ask("HEAD", path)
             self.assertEqual((status, int(headers["Content-Length"]), body), (200, len(SCRIPT), b""))
+            # A form has no address of its own; a file that only looks like one has.
+            self.assertEqual(server.ask("GET", path + ".br")[0], 404)
+            self.assertEqual(server.ask("GET", "/assets/alone.gz")[2], b"no form of anything")
 
     def test_tells_the_browser_what_the_page_may(self):
         with Served(self.work) as server:
@@ -161,6 +173,36 @@ class Serve(Case):
             self.assertFalse(pathlib.Path(f"/proc/{child[0]}").exists())
             for s in [*idle, baking]:
                 s.close()
+
+    def test_ends_soon_with_a_client_that_does_not_read(self):
+        assets = pathlib.Path(self.work) / "studio" / "assets"
+        assets.mkdir(parents=True)
+        (assets / "large.bin").write_bytes(bytes(30_000_000))
+        for arguments in [[], ["--lan"]]:
+            server = Served(self.work, *arguments)
+            self.addCleanup(server.stop, signal.SIGKILL)
+            with server.socket() as reader:
+                reader.sendall(b"GET /assets/large.bin HTTP/1.1\r\nHost: localhost\r\n\r\n")
+                self.assertTrue(reader.recv(1000))
+                self.assertLess(server.stop(signal.SIGTERM), 2.0)
+                self.assertEqual(server.code, 0)
+
+    def test_ends_soon_while_it_starts(self):
+        studio = pathlib.Path(self.work) / "studio"
+        studio.mkdir()
+        (studio / "index.html").write_text("")
+        with (studio / "large.bin").open("wb") as file:
+            file.truncate(300 << 20)  # reading it takes about a second
+        for pause in [0, 0.02, 0.1, 0.3]:
+            process = subprocess.Popen([PROGRAM, "serve", "--port", "0", "--studio", str(studio), "--data", self.work],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.addCleanup(process.kill)
+            time.sleep(pause)
+            began = time.monotonic()
+            process.terminate()
+            process.communicate(timeout=30)
+            self.assertLess(time.monotonic() - began, 2.0)
+            self.assertIn(process.returncode, [0, 130, -signal.SIGTERM])  # ready, not yet, not even begun
 
     def test_a_bake_does_not_outlive_a_server_that_is_killed(self):
         mesh = slow_mesh(self.work)

@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import type { Plugin } from 'vite';
 
 /** What is not kept before it is wanted, and what is no file of the page's own. */
-const kLeftOut = /^embeddings\/|\.(br|gz)$|^sw\.js$/;
+const kLeftOut = /\.(mimicry|br|gz)$|^sw\.js$/;
 
 /**
  * Writes dist/sw.js, the service worker with the list of the page's files and a hash of them all, and the same hash into the page.

@@ -9,7 +9,7 @@ import { Files } from './files';
 import { Keyboard } from './input/keyboard';
 import { PointerInput } from './input/pointer_input';
 import { XrInput } from './input/xr_input';
-import { Stage } from './scene/stage';
+import type { Stage } from './scene/stage';
 import { ThreeView } from './scene/three_view';
 import { readSettings, settingsStorage, writeSettings } from './settings';
 import { Studio, type ModelSource } from './studio';
@@ -23,7 +23,6 @@ import { littleInk } from './ui/technique_text';
 export const kFirstShape = 'hand';
 /** Everything on the page, put together. */
 export class App implements Actions {
-  readonly stage: Stage;
   readonly view: ThreeView;
   readonly studio: Studio;
   readonly pointer: PointerInput;
@@ -34,10 +33,9 @@ export class App implements Actions {
   private baking: AbortController | null = null;
   private readonly settings = settingsStorage();
 
-  constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, private readonly options: { antialias: boolean; embeddings: boolean }) {
+  constructor(private readonly core: Core, root: HTMLElement, canvas: HTMLCanvasElement, readonly stage: Stage, private readonly embeddings: boolean) {
     const loader = new Loader(core);
     loader.warm();
-    this.stage = new Stage(canvas, options.antialias);
     this.view = new ThreeView(this.stage);
     this.studio = new Studio(core, this.view, readSettings(this.settings));
     this.pointer = new PointerInput(canvas, this.stage, this.view, this.studio);
@@ -149,7 +147,7 @@ export class App implements Actions {
 
   /** A built-in model's bake, if the server has it: after the first picture, when there is time. */
   private async fetchEmbedding(shape: string): Promise<void> {
-    const url = this.options.embeddings ? kEmbeddings.get(shape) : undefined;
+    const url = this.embeddings ? kEmbeddings.get(shape) : undefined;
     if (!url) return;
     await new Promise((resolve) => ('requestIdleCallback' in window ? requestIdleCallback(resolve, { timeout: 3000 }) : setTimeout(resolve, 1000)));
     try {

@@ -1,7 +1,7 @@
 import { Mimicry } from 'mimicry';
 import { App } from './app';
 import { keepOffline } from './offline/register';
-import { NoGraphics } from './scene/stage';
+import { NoGraphics, Stage } from './scene/stage';
 
 const root = document.getElementById('studio')!;
 const options = new URLSearchParams(location.search);
@@ -19,9 +19,12 @@ async function main(): Promise<void> {
   holder.append(canvas);
   root.append(holder, loading);
   try {
-    const core = await new Mimicry().ready;
-    const app = new App(core, root, canvas, { antialias: options.get('antialias') !== 'off', embeddings: options.get('embeddings') !== 'off' });
-    if (options.get('motion') === 'off' || matchMedia('(prefers-reduced-motion: reduce)').matches) app.stage.rig.instant = true;
+    // The graphics driver starts while the core is fetched and compiled.
+    const core = new Mimicry().ready;
+    core.catch(() => undefined);
+    const stage = new Stage(canvas, options.get('antialias') !== 'off');
+    if (options.get('motion') === 'off' || matchMedia('(prefers-reduced-motion: reduce)').matches) stage.rig.instant = true;
+    const app = new App(await core, root, canvas, stage, options.get('embeddings') !== 'off');
     await app.start();
     // For tests and the curious.
     Object.assign(window, { studio: app });

@@ -47,8 +47,8 @@ std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh);
 /// face counts other than the mesh's.
 CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh);
 
-/// The same as raw numbers, for keeping a drawing from one day to the next: written and read a
-/// hundred times faster, and of no use to other programs. Reads back to the same bits.
+/// The same as raw numbers, for keeping a drawing from one day to the next: written and read
+/// twenty times faster in a browser, and of no use to other programs. Reads back to the same bits.
 std::string write_curves_packed(const CurveSet& set, const TriangleMesh& mesh);
 bool is_packed_curves(std::string_view bytes);
 

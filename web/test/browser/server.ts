@@ -1,4 +1,4 @@
-import { createReadStream, existsSync, statSync } from 'node:fs';
+import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import { extname, join, normalize, resolve } from 'node:path';
 import { createGzip } from 'node:zlib';
@@ -10,7 +10,7 @@ const kTypes: Record<string, string> = {
 
 export interface Served {
   url: string;
-  /** Bytes that went over the wire, gzipped. */
+  /** Bytes that went over the wire, compressed. */
   sent(): number;
   /** Another folder from now on. */
   move(folder: string): void;
@@ -27,7 +27,15 @@ export async function serve(folder = resolve('dist')): Promise<Served> {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream', 'content-encoding': 'gzip' });
+    const head = { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream', 'cache-control': path.startsWith('/assets/') ? 'public, max-age=31536000, immutable' : 'no-cache' };
+    // As `mimicry serve` does; a page that was just built may not be packed.
+    if (existsSync(`${file}.br`) && /\bbr\b/.test(String(request.headers['accept-encoding']))) {
+      const bytes = readFileSync(`${file}.br`);
+      sent += bytes.length;
+      response.writeHead(200, { ...head, 'content-encoding': 'br' }).end(bytes);
+      return;
+    }
+    response.writeHead(200, { ...head, 'content-encoding': 'gzip' });
     const zip = createGzip();
     zip.on('data', (part: Buffer) => (sent += part.length));
     createReadStream(file).pipe(zip).pipe(response);
