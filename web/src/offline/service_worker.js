@@ -38,7 +38,7 @@ self.addEventListener('fetch', (event) => {
     if (path === '' || path === 'index.html') event.respondWith(page(request));
   } else if (kFiles.includes(path)) {
     event.respondWith(kept(path).then((response) => response ?? fetch(request)));
-  } else if (path.startsWith('embeddings/')) {
+  } else if (path.endsWith('.mimicry')) {
     event.respondWith(keptOnUse(request, path));
   }
 });
