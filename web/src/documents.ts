@@ -278,7 +278,11 @@ export class Documents {
     if (!stored || open.now?.id !== id || open.now.writes || this.studio.isDrawing) return;
     const { drawing } = this.content(this.studio.target!, stored, open.now);
     this.remember(stored.entries, drawing);
-    this.quietly(() => this.studio.restore(drawing));
+    const { turn } = stored.model, now = this.studio.state.now.turn;
+    this.quietly(() => {
+      if (turn?.some((x, k) => x !== now[k])) this.studio.standAs(turn);
+      this.studio.restore(drawing);
+    });
   }
 
   /** The tab that wrote has gone. */

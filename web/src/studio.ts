@@ -143,10 +143,14 @@ export class Studio {
 
   /** Turns the model by a quarter where it stands: around the axis from left to right, or toward the viewer. */
   turnModel(axis: 'x' | 'z'): void {
+    this.standAs(quarterTurned(this.state.now.turn, axis));
+  }
+
+  /** Turns the model where it stands. */
+  standAs(turn: readonly number[]): void {
     if (!this.target) return;
     this.endStroke();
-    const { turn: before, modelToWorld } = this.state.now;
-    const turn = quarterTurned(before, axis), centre = this.centre(), where = [0, 0, 0];
+    const { modelToWorld } = this.state.now, centre = this.centre(), where = [0, 0, 0];
     toWorld(where, 0, modelToWorld, centre, 0);
     this.place(standing(centre, where, turn, modelToWorld[7]!));
     this.state.update({ turn });

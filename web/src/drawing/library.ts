@@ -65,6 +65,10 @@ export interface Stored {
 /** Deleted drawings can be brought back for this long; empty ones are kept for some time too. */
 const kBin_ms = 7 * 24 * 3600e3, kEmpty_ms = 24 * 3600e3;
 
+function entriesOf(given: unknown): StoredEntry[] {
+  return Array.isArray(given) ? (given as (StoredEntry | null)[]).filter((entry) => typeof entry?.id === 'string') as StoredEntry[] : [];
+}
+
 let serial = 0;
 
 export function newDrawingId(): string {
@@ -97,7 +101,7 @@ export class Library {
     const parts = new Map([...all].map(([key, value]) => [key.slice(contentKey(id).length), value]));
     return {
       model, parts, embedding: (part('embedding') as Uint8Array | undefined) ?? null,
-      entries: (part('entries') as StoredEntry[] | undefined) ?? [], file: (part('file') as DrawingContent | undefined) ?? null,
+      entries: entriesOf(part('entries')), file: (part('file') as DrawingContent | undefined) ?? null,
     };
   }
 

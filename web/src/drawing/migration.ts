@@ -19,11 +19,11 @@ export async function migrate(shelf: Shelf, titleOf: (source: ModelSource) => st
     const old = new Map(keys.map((key, i) => [String(key), values[i] as unknown]));
     const put = new Map<string, unknown>();
     const away = old.get('away') as { source: ModelSource; content: DrawingContent } | null | undefined;
-    if (away) add(put, titleOf(away.source), { model: { name: '', source: away.source }, file: away.content }, away.content.entries?.length ?? 0);
+    if (away?.source && Array.isArray(away.content?.entries)) add(put, titleOf(away.source), { model: { name: '', source: away.source }, file: away.content }, away.content.entries.length);
     const model = old.get('model') as StoredModel | undefined;
     let open: string | null = null;
-    if (model) {
-      const entries = (old.get('entries') as StoredEntry[] | undefined) ?? [];
+    if (model?.source) {
+      const given = old.get('entries'), entries = Array.isArray(given) ? given as StoredEntry[] : [];
       open = add(put, titleOf(model.source), { model, entries, embedding: (old.get('embedding') as Uint8Array | undefined) ?? null }, entries.length, old);
     }
     if (put.size > 0) await shelf.write(put, []);

@@ -31,7 +31,7 @@ export function recover(target: Target, parts: Iterable<Part>, name: string, rea
   const drawing: DrawnCurve[] = [], missing: string[] = [], redrawn: string[] = [], restyled: string[] = [];
   for (const part of parts) {
     const { id, stroke } = part;
-    if (!stroke) {
+    if (!stroke || !isSound(stroke)) {
       missing.push(id);
       continue;
     }
@@ -81,6 +81,10 @@ function sessionOf(target: Target, technique: string): ReturnType<Target['sessio
   } catch {
     return null;
   }
+}
+
+function isSound({ modelToWorld, frames }: RecordedStroke): boolean {
+  return modelToWorld instanceof Float64Array && modelToWorld.length === 8 && modelToWorld.every(Number.isFinite) && frames instanceof Float64Array && frames.length % kFrameSize === 0;
 }
 
 export function frameCount(stroke: Pick<RecordedStroke, 'frames'>): number {

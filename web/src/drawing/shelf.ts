@@ -13,10 +13,7 @@ export function openDatabase(name: string): Promise<IDBDatabase> {
   return new Promise((resolve, reject) => {
     const request = indexedDB.open(name, 1);
     request.onupgradeneeded = () => request.result.createObjectStore(kStore);
-    request.onsuccess = () => {
-      request.result.onversionchange = () => request.result.close(); // a newer page wants to change it
-      resolve(request.result);
-    };
+    request.onsuccess = () => resolve(request.result);
     request.onerror = () => reject(request.error);
   });
 }
@@ -25,7 +22,15 @@ export function openDatabase(name: string): Promise<IDBDatabase> {
 export function indexedDbShelf(name = 'mimicry-drawings'): Shelf {
   let opened: Promise<IDBDatabase> | null = null;
   const open = (): Promise<IDBDatabase> => {
-    opened ??= openDatabase(name);
+    opened ??= openDatabase(name).then((db) => {
+      // A newer page wants to change it, or the browser closed it (its data were cleared, a disk failed): the next use opens it again.
+      db.onversionchange = () => {
+        db.close();
+        opened = null;
+      };
+      db.onclose = () => (opened = null);
+      return db;
+    });
     opened.catch(() => (opened = null));
     return opened;
   };

@@ -221,7 +221,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     expect(await names(second)).toEqual(['Hand']);
   });
 
-  it('a drawing that is open in the other is not deleted, and a new name arrives', async () => {
+  it('a drawing that is open in the other is not deleted; a new name and another side up arrive', async () => {
     await stroke(page, kAcross);
     await settled();
     const second = await tab(opened.context);
@@ -232,6 +232,11 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await stroke(page, kLow);
     await settled();
     expect(await names()).toEqual(['Palm']);
+    await page.keyboard.press('u');
+    const turn = await page.evaluate(() => [...window.studio.studio.state.now.turn]);
+    expect(turn[0]).not.toBe(0);
+    await expect.poll(() => second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
+    expect(await count(second)).toBe(2);
   });
 });
 

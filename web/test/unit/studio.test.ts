@@ -392,6 +392,25 @@ describe('autosave', () => {
     expect([...shelf.items.keys()]).toEqual(['last']);
   });
 
+  it('loses only what is damaged of what is kept', async () => {
+    const shelf = new MemoryShelf(), library = new Library(shelf), autosave = new Autosave(shelf, () => undefined);
+    autosave.begin('a', { name: 'A', isOwn: false }, { name: 'sphere', source: { shape: 'sphere' } }, 'Sphere');
+    for (const y of [0, 0.04, 0.08, 0.12]) draw(-0.05, 0.05, y);
+    await save(autosave);
+    const ids = studio.state.now.history.drawing.map((d) => d.id);
+    const curveOf = (id: string): string => [...shelf.items.keys()].find((key) => key.includes(`curve:${id}:`))!;
+    shelf.items.set(`content/a/stroke:${ids[0]}`, { id: ids[0], frames: 'no' });
+    shelf.items.delete(`content/a/stroke:${ids[1]}`);
+    shelf.items.delete(curveOf(ids[2]!));
+    (shelf.items.get('content/a/entries') as unknown[]).push(null);
+    const stored = (await library.read('a'))!;
+    const { drawing, remarks } = recover(studio.target!, stored.entries.map((entry) => ({
+      ...entry, stroke: (stored.parts.get(entry.strokeKey) as RecordedStroke | undefined) ?? null, curve: () => studio.target!.readCurves(stored.parts.get(entry.curveKey) as Uint8Array, 'a')[0]!,
+    })), 'A');
+    expect(content(drawing)).toEqual(content(studio.state.now.history.drawing.slice(2)));
+    expect(remarks).toEqual([expect.stringContaining(`2 strokes (${ids[0]}, ${ids[1]})`), expect.stringContaining(ids[2]!)]);
+  });
+
   it('says when the storage is full, goes on, and loses nothing of any drawing', async () => {
     const said: (string | null)[] = [];
     let full = true;
