@@ -99,7 +99,7 @@ export class App implements Actions {
         this.view.showMirror(now.settings.mirror);
         this.stage.split = now.settings.compare !== null;
         this.cover();
-        writeSettings(this.settings, now.settings);
+        if (now !== before) writeSettings(this.settings, now.settings);
         this.stage.invalidate();
       }
       if (before.drawing && !now.drawing && now.settings.mirror && now.history.drawing.length === before.history.drawing.length + 1) {
