@@ -118,12 +118,38 @@ test('draws frame by frame as all at once, and edits', () => {
   assert.throws(() => curve.withRadii(new Float64Array(99)), /99 radii/);
   const [read] = target.readCurves(target.writeCurves([curve.withStroke('s7')], 'json'), 'c.json');
   assert.deepEqual([read.stroke, read.technique, read.pointCount], ['s7', 'mimicry-live', 100]);
-  for (const format of ['obj', 'csv', 'ply', 'glb', 'obj-polylines', 'ply-lines', 'glb-lines']) assert.ok(target.writeCurves([curve], format).length > 500);
+  for (const format of ['obj', 'csv', 'ply', 'glb', 'obj-polylines', 'ply-lines', 'glb-lines', 'packed']) assert.ok(target.writeCurves([curve], format).length > 500);
+  const [kept] = target.readCurves(target.writeCurves([curve], 'packed'), 'kept');
+  assert.equal(json(kept), json(curve));
   target.dispose();
   assert.ok(curve.length > 0, 'a curve keeps its target');
   curve.dispose();
   curve.dispose();
   assert.throws(() => curve.length, /dispose/);
+});
+
+test('a target goes to another thread with its memory, and curves move between targets', async () => {
+  const worker = await new Mimicry({ wasm: mimicry.code }).ready;
+  const mesh = worker.shape('torus');
+  const first = worker.createTarget(mesh, 'torus');
+  const session = first.session('mimicry-live');
+  const draw = (on) => on.project(here, frames(100));
+  const curve = draw(session);
+  // As postMessage does it.
+  const image = structuredClone({ ...worker.handOver(first, [curve]), code: null });
+  const text = textOf(first.writeCurves([curve], 'json'));
+  const { target, curves: [received] } = await Mimicry.receive({ ...image, code: mimicry.code });
+  worker.dispose();
+  assert.equal(textOf(target.writeCurves([received], 'json')), text);
+  // It is alive: it draws the same, and grows.
+  const again = draw(target.session('mimicry-live'));
+  assert.deepEqual(again.ink.floats, received.ink.floats);
+  const copies = Array.from({ length: 200 }, () => again.withStroke('copy'));
+  assert.equal(copies.at(-1).length, again.length);
+  const other = mimicry.createTarget(mesh, 'torus');
+  other.adopt(received, target);
+  target.dispose();
+  assert.equal(textOf(other.writeCurves([received], 'json')), text);
 });
 
 test('queries', () => {
