@@ -2,7 +2,7 @@
 export const kTechniqueText: Record<string, { title: string; sentence: string; onScreens?: string }> = {
   'mimicry-live': { title: 'Mimicry live', sentence: 'Follows your hand smoothly, wherever you hold it. Works at once.' },
   mimicry: { title: 'Mimicry', sentence: 'Follows your hand through smooth closest points.' },
-  'mimicry-planar': { title: 'Mimicry planar', sentence: 'Follows your hand within the plane of your last two motions.', onScreens: 'it needs a hand that moves in space, and a pen on a screen hardly does' },
+  'mimicry-planar': { title: 'Mimicry planar', sentence: 'Follows your hand within the plane of your last two motions. Made for hands in space: on a screen it may draw little.', onScreens: 'it needs a hand that moves in space, and a pen on a screen hardly does' },
   'mimicry-offset': { title: 'Mimicry offset', sentence: 'Follows your hand but for motion toward the surface, seen from the pen.' },
   'mimicry-parallel': { title: 'Mimicry parallel', sentence: 'Follows your hand but for motion toward the surface, seen from the ink.' },
   'anchored-closest': { title: 'Anchored closest', sentence: 'Carries the motion of your hand to the ink, then takes the closest point.' },

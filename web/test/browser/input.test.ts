@@ -1,3 +1,4 @@
+import { existsSync } from 'node:fs';
 import type { CDPSession, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import { kAcross, kWindow, Lab, messages, reset, stroke, summary, type Opened } from './studio_page';
@@ -59,9 +60,17 @@ const kPen = 40, kPalm = 50;
 const penMoves = (from: number, to: number, more: More = {}): Sent[] =>
   Array.from({ length: 8 }, (_, i): Sent => ['pointermove', kPen, 'pen', from + ((to - from) * (i + 1)) / 8, 240, more]);
 
+/** All techniques work on the first model. */
+async function prepare(): Promise<void> {
+  await page.setInputFiles('input[type=file]', 'dist/embeddings/hand.mimicry');
+  await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
+  await page.evaluate(() => document.querySelectorAll('.message').forEach((message) => message.remove()));
+}
+
 describe('on a screen', () => {
   it('ink comes where the pointer is, with every technique, also zoomed in', async () => {
-    const techniques = await page.evaluate(() => window.studio.studio.core.techniques.filter((t) => !t.needsBake).map((t) => t.name));
+    if (existsSync('dist/embeddings/hand.mimicry')) await prepare();
+    const techniques = await page.evaluate(() => window.studio.studio.core.techniques.filter((t) => window.studio.studio.offers(t.name)).map((t) => t.name));
     for (const zoomed of [false, true]) {
       if (zoomed) {
         await page.mouse.move(330, 240);
@@ -79,10 +88,22 @@ describe('on a screen', () => {
     }
   }, 240000);
 
-  it('a technique that needs a hand in space says so where it leaves little', async () => {
-    await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry-planar' }));
+  it('a technique that leaves little ink says so, and why', async () => {
+    const lengths: number[] = [];
+    const way = 3 * 60;
+    for (const technique of ['mimicry-planar', 'snap']) {
+      await page.evaluate((name) => { window.studio.studio.set({ technique: name }); document.querySelectorAll('.message').forEach((m) => m.remove()); }, technique);
+      await stroke(page, [[305, 232], [364, 240], [306, 248], [364, 256]], 8);
+      const ink = await inkInWindow();
+      let length = 0;
+      for (let i = 1; i < ink.length; i += 1) length += Math.hypot(ink[i]![0] - ink[i - 1]![0], ink[i]![1] - ink[i - 1]![1]);
+      lengths.push(length / way);
+      expect(await messages(page), `${technique} ${length}`).toEqual(length < 0.5 * way ? [expect.stringMatching(/drew little of this stroke: .* choose another technique/)] : []);
+    }
+    expect(lengths[1]).toBeGreaterThan(0.9);
+    // Whatever the stroke, the sentence knows what the technique needs.
     await page.evaluate(() => window.studio.pointer.pen.onLittleInk('mimicry-planar'));
-    expect(await messages(page)).toEqual([expect.stringMatching(/Mimicry planar.*needs a hand that moves in space/)]);
+    expect((await messages(page)).at(-1)).toMatch(/Mimicry planar.*needs a hand that moves in space/);
   });
 
   it('the pen on a plane draws as fast in the window from near as from far', async () => {
