@@ -100,6 +100,7 @@ constexpr const char* kNames[] = {nullptr,
                                   "anchored-closest",
                                   "nozzle",
                                   "soft-anchor",
+                                  "dipped-pen",
                                   "\xff\xfe"};
 constexpr std::size_t kCounts[] = {0, 1, 2, 3, 7, 50};
 

@@ -36,6 +36,7 @@ mimicry_curve curve_of(const mimicry_session& s) {
   io::CurveRecord record;
   record.technique = std::string(s.technique->name);
   for (const technique::OptionInfo& o : s.technique->options) {
+    if (!technique::is_listed(o, s.options.technique)) continue;
     const auto values = o.get(s.options.technique);
     record.options[std::string(o.name)] = {values.begin(), values.end()};
   }

@@ -180,6 +180,7 @@ io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
   record.stroke = stroke.id;
   record.technique = std::string(info.name);
   for (const technique::OptionInfo& o : info.options) {
+    if (!technique::is_listed(o, options.technique)) continue;
     const auto values = o.get(options.technique);
     record.options[std::string(o.name)] = {values.begin(), values.end()};
   }

@@ -39,13 +39,16 @@ Vec3 transported(const Vec3& x, const Vec3& from, const Vec3& to) {
 }  // namespace
 
 // Paper, section 4.3: rays from r_i across the motion, in its plane with the last ray from pen to
-// surface: d = dp_i x (dp_i x (p_{i-1} - q_{i-1})). Where that vanishes the last d serves.
+// surface: d = dp_i x (dp_i x (p_{i-1} - q_{i-1})). Where that vanishes the last d serves. A
+// stroke that starts with the pen on the surface has no such ray: its normal serves.
 Step anchored_ray_plane(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                         const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
   const Vec3 motion = frame.controller.position - memory.pen;
   if (!(motion.cwiseAbs().maxCoeff() <= kFarthestHand)) return miss(memory);
-  const Vec3 lift = memory.pen - memory.position;
+  Vec3 lift = memory.pen - memory.position;
+  if (memory.direction.isZero(0.0) && !(lift.norm() > kNoDirection * canvas.target->diagonal()))
+    lift = canvas.target->normal(memory.surface);
   const double speed = motion.norm();
   const Vec3 along = speed > 0.0 ? Vec3(motion / speed) : Vec3(Vec3::Zero());
   const Vec3 d = along.cross(along.cross(lift));
@@ -57,7 +60,8 @@ Step anchored_ray_plane(const Canvas& canvas, const Memory& memory, const stroke
 }
 
 // Paper, section 4.3: the last ray's direction q_{i-1} - p_{i-1}, turned as the motion has turned
-// since. Where pen and surface touch the last direction serves.
+// since. Where pen and surface touch the last direction serves, or, before there was any, the
+// surface's normal.
 Step anchored_ray_transport(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                             const Options& options) {
   if (!memory.anchored) return spraycan(canvas, memory, frame, options);
@@ -66,8 +70,8 @@ Step anchored_ray_transport(const Canvas& canvas, const Memory& memory, const st
   const Vec3 ray = memory.position - memory.pen;
   const double length = ray.norm();
   const bool is_defined = length > kNoDirection * canvas.target->diagonal();
-  if (!is_defined && memory.direction.isZero(0.0)) return miss(memory);
-  const Vec3 direction = is_defined ? Vec3(ray / length) : memory.direction;
+  Vec3 direction = is_defined ? Vec3(ray / length) : memory.direction;
+  if (direction.isZero(0.0)) direction = -canvas.target->normal(memory.surface);
   return nearer_hit(canvas, memory, frame, memory.position + motion,
                     transported(direction, memory.motion, motion));
 }

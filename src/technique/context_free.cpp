@@ -1,16 +1,6 @@
-#include "technique/steps.h"
+#include "technique/pen_ray.h"
 
 namespace mimicry::technique {
-namespace {
-
-Step first_hit(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-               const Vec3& origin, const Vec3& direction) {
-  const auto hit = canvas.target->first_hit(origin, direction);
-  return hit ? ink(Answer::ray, hit->surface, hit->position, memory, frame) : miss(memory);
-}
-
-}  // namespace
-
 Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const Memory& memory,
          const stroke::Frame& frame) {
   Step step{answer, surface, position, memory};
@@ -33,20 +23,19 @@ Step miss(const Memory& memory) {
 }
 
 Step occlude(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-             const Options&) {
-  const Vec3& pen = frame.controller.position;
-  return first_hit(canvas, memory, frame, pen, pen - frame.head.position);
+             const Options& options) {
+  return pen_ray(canvas, memory, frame, frame.controller.position - frame.head.position, options);
 }
 
 Step spraycan(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
               const Options& options) {
-  return first_hit(canvas, memory, frame, frame.controller.position,
-                   frame.controller.orientation * options.nozzle);
+  return pen_ray(canvas, memory, frame, frame.controller.orientation * options.nozzle, options);
 }
 
 Step head_centric(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
                   const Options&) {
-  return first_hit(canvas, memory, frame, frame.head.position, frame.head.forward());
+  const auto hit = canvas.target->first_hit(frame.head.position, frame.head.forward());
+  return hit ? ink(Answer::ray, hit->surface, hit->position, memory, frame) : miss(memory);
 }
 
 Step snap(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame, const Options&) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -19,7 +20,18 @@ constexpr OptionInfo kNozzle = {
     -1.0,
     1.0};
 
-constexpr std::array<OptionInfo, 1> kSprayOptions = {kNozzle};
+constexpr OptionInfo kDippedPen = {
+    "dipped-pen",
+    "",
+    "1: a pen inside the object draws at the surface it went through; 0: at the ray's first hit",
+    [](const Options& o) { return std::span<const double>(&o.dipped_pen, 1); },
+    [](Options& o) { return std::span<double>(&o.dipped_pen, 1); },
+    0.0,
+    1.0,
+    false};
+
+constexpr std::array<OptionInfo, 1> kSightOptions = {kDippedPen};
+constexpr std::array<OptionInfo, 2> kSprayOptions = {kNozzle, kDippedPen};
 
 constexpr OptionInfo kReplaceFailed = {
     "replace-failed",
@@ -31,10 +43,11 @@ constexpr OptionInfo kReplaceFailed = {
     1.0};
 
 constexpr std::array<OptionInfo, 1> kSmoothOptions = {kReplaceFailed};
-constexpr std::array<OptionInfo, 2> kSpraySmoothOptions = {kNozzle, kReplaceFailed};
+constexpr std::array<OptionInfo, 3> kSpraySmoothOptions = {kNozzle, kDippedPen, kReplaceFailed};
 
-constexpr std::array<OptionInfo, 5> kMimicryOptions = {{
+constexpr std::array<OptionInfo, 6> kMimicryOptions = {{
     kNozzle,
+    kDippedPen,
     {"soft-anchor", "", "1: carry over what the curve did not follow; 0: do not",
      [](const Options& o) { return std::span<const double>(&o.soft_anchor.on, 1); },
      [](Options& o) { return std::span<double>(&o.soft_anchor.on, 1); }, 0.0, 1.0},
@@ -47,17 +60,13 @@ constexpr std::array<OptionInfo, 5> kMimicryOptions = {{
     kReplaceFailed,
 }};
 // The same without what it does not have.
-constexpr std::array<OptionInfo, 4> kLiveOptions = {kMimicryOptions[0], kMimicryOptions[1],
-                                                    kMimicryOptions[2], kMimicryOptions[3]};
+constexpr std::array<OptionInfo, 5> kLiveOptions = {kMimicryOptions[0], kMimicryOptions[1],
+                                                    kMimicryOptions[2], kMimicryOptions[3],
+                                                    kMimicryOptions[4]};
 
 constexpr std::array<TechniqueInfo, 13> kTechniques = {{
-    {"occlude",
-     "along the line of sight: from the eye through the pen, to what the pen hides",
-     "3.1.1",
-     false,
-     false,
-     {},
-     occlude},
+    {"occlude", "along the line of sight: from the eye through the pen, to what the pen hides",
+     "3.1.1", false, false, kSightOptions, occlude},
     {"spraycan", "along the controller's nozzle, as from a spray can or a laser pointer", "3.1.1",
      false, false, kSprayOptions, spraycan},
     {"head-centric",
@@ -96,6 +105,12 @@ std::string_view answer_name(Answer answer) {
       "miss",    "ray",           "closest",           "smooth",
       "section", "outside-shell", "no-phong-solution", "replaced"};
   return kNames[static_cast<std::size_t>(answer)];
+}
+
+bool is_listed(const OptionInfo& option, const Options& options) {
+  const Options defaults;
+  const auto values = option.get(options), usual = option.get(defaults);
+  return option.always_listed || !std::equal(values.begin(), values.end(), usual.begin());
 }
 
 std::span<const TechniqueInfo> techniques() {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -167,6 +168,33 @@ TEST(StrokeSession, RecordedStrokeThatIsNotUsableThrows) {
   stroke::Stroke stroke = test::waving_stroke(5);
   stroke.frames[3].time_s = -1;
   EXPECT_THROW(project(sphere.canvas, technique::find_technique("snap"), stroke), Error);
+}
+
+// A hand in space dips its pen into the object from the first frame to the last.
+TEST(StrokeSession, ADippedStrokeStaysOnTheSideThatItWentInto) {
+  const Sphere sphere;
+  stroke::Stroke stroke;
+  for (int i = 0; i < 40; ++i) {
+    stroke::Frame frame;
+    frame.time_s = i / 90.0;
+    frame.head.position = Vec3(0.0, 0.0, 3.0);
+    frame.controller.position = Vec3(0.01 * (i - 20), 0.02 * std::sin(0.3 * i), 0.9);
+    stroke.frames.push_back(frame);
+  }
+  SessionOptions dipped;
+  dipped.technique.dipped_pen = 1.0;
+  int looked_at = 0;
+  for (const auto& info : technique::techniques()) {
+    if (info.needs_bake) continue;
+    const ProjectedCurve curve = project(sphere.canvas, info, stroke, dipped);
+    ASSERT_GT(curve.points.size(), 20u) << info.name;
+    for (const CurvePoint& point : curve.points) ASSERT_GT(point.position.z(), 0.5) << info.name;
+    ++looked_at;
+  }
+  EXPECT_EQ(looked_at, 9);
+  // The paper's rays go on to the far side.
+  const auto far = project(sphere.canvas, technique::find_technique("spraycan"), stroke);
+  for (const CurvePoint& point : far.points) EXPECT_LT(point.position.z(), -0.5);
 }
 
 }  // namespace

@@ -67,6 +67,10 @@ struct Options {
   /// 0 or 1: smooth points that fail the paper's test are replaced by closest points
   /// (embedding::ScpOptions). The paper's techniques do not.
   double replace_failed = 0.0;
+  /// 0 or 1: a pen inside the object draws at the surface that it went through, not where its ray
+  /// leaves the far side. Of anchored techniques this is where a stroke starts. The paper's
+  /// techniques do not.
+  double dipped_pen = 0.0;
 };
 
 /// The point for one frame, and what to carry to the next. `surface` and `position` are set where
@@ -90,7 +94,12 @@ struct OptionInfo {
   std::span<const double> (*get)(const Options&);
   std::span<double> (*edit)(Options&);
   double lowest, highest;  ///< of each number
+  /// Files of curves list it whatever its value is; else where it is not the default.
+  bool always_listed = true;
 };
+
+/// Whether files of curves that were drawn with these options list this one.
+bool is_listed(const OptionInfo& option, const Options& options);
 
 struct TechniqueInfo {
   std::string_view name;

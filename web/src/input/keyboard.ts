@@ -88,9 +88,9 @@ export class Keyboard {
   }
 
   private up(event: KeyboardEvent): void {
-    if (event.code !== 'Space') return;
-    this.pointer.navigate = false;
-    if (this.pointer.navigated) event.preventDefault(); // no click of a button that has the focus
+    if (event.code !== 'Space' && event.key !== 'Alt') return;
+    if (event.code === 'Space') this.pointer.navigate = false;
+    if (this.pointer.navigated) event.preventDefault(); // no click of a button that has the focus, no menu of the browser
     this.pointer.navigated = false;
   }
 

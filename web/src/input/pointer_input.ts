@@ -31,7 +31,7 @@ const kMostNotches = 8, kMostPinch = 30;
 export class PointerInput {
   /** While the space bar is held. */
   navigate = false;
-  /** Whether something was navigated while it was. */
+  /** Whether something was navigated with a held key. */
   navigated = false;
   /** Whether the mouse is over the picture. */
   over = false;
@@ -175,7 +175,7 @@ export class PointerInput {
     else if ((end || this.studio.settings.tool !== 'draw') && this.eraser.press(event, end)) this.set('erase');
     else if (!end && this.studio.settings.tool === 'draw' && this.pen.press(event)) this.set('draw');
     else this.set('orbit');
-    if (this.navigate) this.navigated = true;
+    if (held) this.navigated = true;
   }
 
   private move(event: PointerEvent): void {
@@ -258,6 +258,7 @@ export class PointerInput {
 
   /** Where a stroke would start. */
   private hover(event: PointerEvent | null): void {
+    if (this.stage.renderer.xr.isPresenting) return; // the hand's pen is shown
     if (!event || event.pointerType === 'touch' || !this.studio.target) {
       this.marks.hide();
       return;

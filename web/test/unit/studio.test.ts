@@ -84,6 +84,29 @@ describe('studio', () => {
     expect(view.live.size).toBe(0);
   });
 
+  it('a pen that dips into the model draws on the side that it went into', () => {
+    const { target } = studio;
+    const centre = studio.centre(), place = studio.state.now.modelToWorld;
+    const radius = (target!.max[2]! - target!.min[2]!) / 2;
+    for (const { name, needsBake } of core.techniques) {
+      if (needsBake) continue;
+      studio.clear();
+      studio.set({ technique: name });
+      studio.beginStroke();
+      for (let i = 0; i < 10; i += 1) {
+        const frame = makeFrame();
+        frame[0] = i / 90;
+        const pen = [0.1 * radius * (i / 10), 0, 0.8 * radius].map((v, k) => place[7]! * (v + centre[k]!) + place[4 + k]!);
+        frame.set(pen, kController);
+        frame.set([pen[0]!, pen[1]!, pen[2]! + 1], kHead);
+        studio.addFrame(frame);
+      }
+      studio.endStroke();
+      const { curve } = studio.state.now.history.drawing[0]!;
+      for (let i = 0; i < curve.pointCount; i += 1) expect(curve.point(i).position[2] - centre[2]!, name).toBeGreaterThan(0.5 * radius);
+    }
+  });
+
   it('a cancelled stroke leaves none either', () => {
     studio.beginStroke();
     studio.cancelStroke();
