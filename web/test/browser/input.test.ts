@@ -124,40 +124,6 @@ describe('on a screen', () => {
     expect(await part()).toBeCloseTo(far, 2);
   });
 
-  it('a stroke starts at what is pressed on, wherever that is and however the pen leans', async () => {
-    for (const shape of ['hand', 'trefoil', 'noisy-cube']) {
-      const far = await page.evaluate(async (name) => {
-        const { studio, stage } = window.studio;
-        if (!studio.core.shapes.some((s) => s.name === name)) return { presses: 0, worst: NaN };
-        window.studio.openShape(name);
-        stage.rig.jump();
-        const canvas = document.querySelector('canvas')!;
-        let presses = 0, worst = 0;
-        for (let i = 0; i < 120; i += 1) {
-          const x = 270 + ((i * 37) % 110), y = 170 + ((i * 29) % 140);
-          const eye = stage.camera.position, m = studio.state.now.modelToWorld;
-          const to = eye.clone().set((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight, 0.5).unproject(stage.camera).sub(eye);
-          const seen = studio.target!.firstHit((eye.x - m[4]!) / m[7]!, (eye.y - m[5]!) / m[7]!, (eye.z - m[6]!) / m[7]!, to.x, to.y, to.z);
-          if (!seen) continue;
-          const p = [...seen.position];
-          studio.set({ technique: ['spraycan', 'occlude', 'mimicry-live', 'anchored-ray-plane', 'snap', 'head-centric'][presses % 6]! });
-          for (const type of ['pointerdown', 'pointerup']) {
-            canvas.dispatchEvent(new PointerEvent(type, { pointerId: 80, pointerType: 'pen', pressure: 0.5, tiltX: 50 - (i % 100), tiltY: (i * 7) % 50, button: 0, buttons: type === 'pointerup' ? 0 : 1, clientX: x, clientY: y }));
-          }
-          const drawn = studio.state.now.history.drawing.at(-1);
-          if (!drawn) return { presses, worst: Infinity, at: [x, y, studio.settings.technique] };
-          const q = drawn.curve.point(0).position;
-          worst = Math.max(worst, Math.hypot(...p.map((v, k) => v - q[k as 0]!)) / studio.target!.diagonal);
-          presses += 1;
-          studio.undo();
-        }
-        return { presses, worst };
-      }, shape);
-      if (shape === 'hand') expect(far.presses).toBeGreaterThan(30);
-      if (far.presses > 0) expect(far.worst, `${shape} ${JSON.stringify(far)}`).toBeLessThan(1e-4);
-    }
-  });
-
   it('a pointer that leaves the model and comes back draws under the pointer again', async () => {
     await stroke(page, [[340, 240], [620, 240], [340, 240], [345, 262]], 20);
     const [x, y] = (await inkInWindow()).at(-1)!;
@@ -260,6 +226,40 @@ describe('a pen', () => {
     expect(await page.evaluate(() => window.studio.studio.settings.tool)).toBe('draw');
   });
 
+  it('starts at what is pressed on, wherever that is and however it leans', async () => {
+    for (const shape of ['hand', 'trefoil', 'noisy-cube']) {
+      const far = await page.evaluate(async (name) => {
+        const { studio, stage } = window.studio;
+        if (!studio.core.shapes.some((s) => s.name === name)) return { presses: 0, worst: NaN };
+        window.studio.openShape(name);
+        stage.rig.jump();
+        const canvas = document.querySelector('canvas')!;
+        let presses = 0, worst = 0;
+        for (let i = 0; i < 120; i += 1) {
+          const x = 270 + ((i * 37) % 110), y = 170 + ((i * 29) % 140);
+          const eye = stage.camera.position, m = studio.state.now.modelToWorld;
+          const to = eye.clone().set((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight, 0.5).unproject(stage.camera).sub(eye);
+          const seen = studio.target!.firstHit((eye.x - m[4]!) / m[7]!, (eye.y - m[5]!) / m[7]!, (eye.z - m[6]!) / m[7]!, to.x, to.y, to.z);
+          if (!seen) continue;
+          const p = [...seen.position];
+          studio.set({ technique: ['spraycan', 'occlude', 'mimicry-live', 'anchored-ray-plane', 'snap', 'head-centric'][presses % 6]! });
+          for (const type of ['pointerdown', 'pointerup']) {
+            canvas.dispatchEvent(new PointerEvent(type, { pointerId: 80, pointerType: 'pen', pressure: 0.5, tiltX: 50 - (i % 100), tiltY: (i * 7) % 50, button: 0, buttons: type === 'pointerup' ? 0 : 1, clientX: x, clientY: y }));
+          }
+          const drawn = studio.state.now.history.drawing.at(-1);
+          if (!drawn) return { presses, worst: Infinity, at: [x, y, studio.settings.technique] };
+          const q = drawn.curve.point(0).position;
+          worst = Math.max(worst, Math.hypot(...p.map((v, k) => v - q[k as 0]!)) / studio.target!.diagonal);
+          presses += 1;
+          studio.undo();
+        }
+        return { presses, worst };
+      }, shape);
+      if (shape === 'hand') expect(far.presses, JSON.stringify(far)).toBeGreaterThan(30);
+      if (far.presses > 0) expect(far.worst, `${shape} ${JSON.stringify(far)}`).toBeLessThan(1e-4);
+    }
+  });
+
   it('that tells no pressure and no tilt draws at full width', async () => {
     // A fresh page: pressures that were seen are remembered.
     const { page: fresh, context } = await lab.open();
@@ -301,7 +301,7 @@ describe('keys', () => {
         await page.keyboard.press('f');
       }
     }
-  });
+  }, 240000);
 
   it('Space does not stick after the window lost the focus', async () => {
     await page.locator('canvas').focus();
@@ -470,5 +470,5 @@ describe('small windows', () => {
       }
     }
     await page.setViewportSize(kWindow);
-  });
+  }, 240000);
 });
