@@ -1,4 +1,6 @@
 #include <cstdint>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include <mimicry/base/error.h>
@@ -14,7 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                  ? io::read_curves_packed(bytes, "input", mesh)
                                  : io::read_curves_json(bytes, "input", mesh);
     // What is accepted refers to nothing beyond the mesh: every writer can go through it.
-    (void)io::write_curves_json(set, mesh);
+    const std::string text = io::write_curves_json(set, mesh);
+    if (io::write_curves_json(io::read_curves_json(text, "written", mesh), mesh) != text)
+      std::abort();
     (void)io::write_curves_obj(set, mesh);
     (void)io::write_curves_csv(set, mesh);
   } catch (const Error&) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include <mimicry/geodesic/exact.h>
@@ -57,6 +58,25 @@ double polyline(const TriangleMesh& mesh, const SurfacePoint& from,
     last = position(mesh, c);
   }
   return length + (mesh.position(to) - last).norm();
+}
+
+// #V: from a point of a face straight to its corners, then along edges.
+std::vector<double> edge_paths(const TriangleMesh& mesh, Index face, const Vec3& origin) {
+  std::vector<double> lengths(at(mesh.vertex_count()), kInfinity);
+  for (const Index v : mesh.face(face)) lengths[at(v)] = (mesh.position(v) - origin).norm();
+  for (bool shorter = true; shorter;) {
+    shorter = false;
+    for (const Face& f : mesh.faces())
+      for (std::size_t k = 0; k < 3; ++k)
+        for (const auto& [from, to] : {std::pair{f[k], f[(k + 1) % 3]}, {f[(k + 1) % 3], f[k]}}) {
+          const double length =
+              lengths[at(from)] + (mesh.position(from) - mesh.position(to)).norm();
+          if (length >= lengths[at(to)]) continue;
+          lengths[at(to)] = length;
+          shorter = true;
+        }
+  }
+  return lengths;
 }
 
 }  // namespace
@@ -115,8 +135,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
   geodesic::DiscreteExponentialMap map(mesh, edges, normals);
   const geodesic::ExponentialPatch& patch = map.compute(a, 5.0);
+  const std::vector<double> most = edge_paths(mesh, a.face, patch.origin);
   for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
     const double length = patch.coordinates[k].norm();
+    require(length <= most[at(patch.vertices[k])] + kTolerance);
     require(length >= (mesh.position(patch.vertices[k]) - patch.origin).norm() - kTolerance);
     require(length <= 5.0);
   }

@@ -23,12 +23,15 @@ void require(bool holds) {
 }
 
 Site make_site() {
-  const auto folder = std::filesystem::temp_directory_path() / "mimicry-http-fuzz";
+  std::string name = (std::filesystem::temp_directory_path() / "http-fuzz-XXXXXX").string();
+  require(::mkdtemp(name.data()) != nullptr);
+  const std::filesystem::path folder = name;
   std::filesystem::create_directories(folder / "assets");
   std::ofstream(folder / "index.html") << "<!doctype html>";
   std::ofstream(folder / "assets" / "a.js") << std::string(1000, ' ');
   Site site;
   site.pages = std::make_shared<const Pages>(folder.string());
+  std::filesystem::remove_all(folder);  // the pages are in memory
   site.routes = {{"GET", "/api/status", 0, {}, {}}, {"POST", "/api/bake", 1000, {}, {}}};
   site.known_host = [](const std::string& host) { return host == "localhost" || host == "::1"; };
   return site;

@@ -111,8 +111,26 @@ void studies() {
   curve.parameters = study::TargetParameters{};
   set.shapes.push_back({"torus", 0.4, {curve, curve}});
   keep("targets", "two", io::write_targets(set, "a note"));
-  keep("study_recording", "sequence",
-       "s" + io::write_study_sequence({{1, 0}, {0}, {{0, 1, 2, 0}, {2, 1}}}));
+  const std::string sequence = io::write_study_sequence({{1, 0}, {0}, {{0, 1, 2, 0}, {2, 1}}});
+  keep("study_recording", "sequence", "s" + sequence);
+
+  const spatial::Target target(make_box(1, 1, 1, Vec3::Ones()));
+  technique::Canvas canvas;
+  canvas.target = &target;
+  const stroke::Stroke drawn = some_stroke();
+  std::vector<study::RecordedStroke> recorded;
+  for (const char* name : {"spraycan", "head-centric", "snap"})
+    recorded.push_back(study::record(
+        drawn, session::project(canvas, technique::find_technique(name), drawn), "Spray"));
+  const std::string recording = io::write_recording(recorded);
+  keep("study_recording", "recording", "r" + recording);
+  study::TargetCurve across;  // a face
+  for (int step = 0; step <= 8; ++step)
+    across.points.push_back({0, Vec3(1.0 - step / 8.0, step / 16.0, step / 16.0)});
+  using namespace std::string_literals;
+  keep("measure", "folder",
+       io::write_study_sequence({{0}, {0}, {{0, 0, 0, 0}}}) + "\0"s + recording + "\0"s +
+           io::write_targets({{{"box", 0.4, {across}}}}, ""));
 }
 
 void bakes() {

@@ -1,13 +1,19 @@
 #include <cstdint>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/targets_reader.h>
+#include <mimicry/io/targets_writer.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mimicry;
   try {
-    (void)io::read_targets({reinterpret_cast<const char*>(data), size}, "input");
+    const auto set = io::read_targets({reinterpret_cast<const char*>(data), size}, "input");
+    // What is accepted can be written and reads back alike.
+    const std::string text = io::write_targets(set, "");
+    if (io::write_targets(io::read_targets(text, "written"), "") != text) std::abort();
   } catch (const Error&) {
   }
   return 0;

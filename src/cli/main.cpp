@@ -1,10 +1,14 @@
 #include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <sstream>
+#include <string>
 #include <system_error>
+#include <type_traits>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -42,6 +46,32 @@ int status_after_printing(int status) {
   return kFileTrouble;
 }
 
+template <class Number>
+std::string fault_of(const std::string& text) {
+  Number value = 0;
+  const char* const end = text.data() + text.size();
+  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const auto [at, error] = std::from_chars(text.data() + (has_plus ? 1 : 0), end, value);
+  if (error == std::errc() && at == end) return "";
+  const std::string kind = std::is_floating_point_v<Number> ? "number" : "whole number";
+  return "'" + text + "' is not a " + kind + (std::is_unsigned_v<Number> ? " from 0 on" : "") +
+         (error == std::errc::result_out_of_range ? " (there are none that large or small)" : "");
+}
+
+// The parser takes no text for 0, and wraps numbers that are out of range around.
+void check_numbers(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* option : command->get_options()) {
+      const std::string type = option->get_type_name();
+      std::string (*fault)(const std::string&) = nullptr;
+      if (type.starts_with("UINT")) fault = fault_of<std::uint64_t>;
+      if (type.starts_with("INT")) fault = fault_of<std::int64_t>;
+      if (type.starts_with("FLOAT")) fault = fault_of<double>;
+      if (fault != nullptr)
+        option->check([fault](const std::string& text) { return fault(text); }, "");
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,6 +105,7 @@ int main(int argc, char** argv) {
   add_bake_worker(app, status);
   add_participants(app, status);
   add_replay(app, status);
+  check_numbers(app);
   try {
     app.parse(argc, argv);
     return status_after_printing(status);
@@ -92,6 +123,11 @@ int main(int argc, char** argv) {
     return kBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(std::string(error.what()) + "; check the path, the rights and the room left");
+    return kFileTrouble;
+  } catch (const std::system_error& error) {
+    const bool is_limit = error.code() == std::errc::resource_unavailable_try_again;
+    complain(std::string(error.what()) +
+             (is_limit ? "; raise the limits of this user or container (ulimit -a)" : ""));
     return kFileTrouble;
   } catch (const std::exception& error) {
     complain("unexpected failure: " + std::string(error.what()));

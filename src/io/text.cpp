@@ -1,8 +1,12 @@
 #include "io/text.h"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include <mimicry/base/error.h>
+
+#include "io/json.h"
 
 namespace mimicry::io {
 
@@ -69,13 +73,27 @@ std::string to_lower(std::string_view word) {
   return out;
 }
 
+namespace {
+
+// Bytes that are no text become the mark of that.
+std::string utf8(std::string text) {
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (std::all_of(text.begin(), text.end(), is_ascii)) return text;
+  return Json::parse(Json(std::move(text)).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+}  // namespace
+
 std::string one_line(std::string name) {
+  name = utf8(std::move(name));
   for (char& c : name)
     if (c == '\n' || c == '\r') c = ' ';
   return name;
 }
 
-std::string csv_field(const std::string& value) {
+std::string csv_field(const std::string& given) {
+  const std::string value = utf8(given);
   if (value.find_first_of(",\"\n\r") == std::string::npos) return value;
   std::string quoted = "\"";
   for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -31,11 +31,11 @@ std::string_view take_word(std::string_view& rest);
 
 std::string to_lower(std::string_view word);
 
-/// A name for a place that ends with its line: line ends become blanks.
+/// A name for a place that ends with its line: line ends become blanks, what is no UTF-8 U+FFFD.
 std::string one_line(std::string name);
 
-/// A text field of a CSV file, quoted where it has to be (RFC 4180).
-std::string csv_field(const std::string& value);
+/// A text field of a CSV file, quoted where it has to be (RFC 4180); what is no UTF-8 is U+FFFD.
+std::string csv_field(const std::string& given);
 
 /// Walks over the lines of a text and counts them from 1. Lines end in LF, CR LF or CR.
 class Lines {

@@ -17,7 +17,10 @@ constexpr const char* kStopped = "the server was stopped";
 std::string mesh_name(const Request& request) {
   const auto given = request.query.find("name");
   if (given == request.query.end() || given->second.empty()) return "model";
-  return printable(given->second).substr(0, 1000);
+  // The end says which format it is.
+  constexpr std::size_t kMost = 1000;
+  const std::string& name = given->second;
+  return printable(name.size() <= kMost ? name : "..." + name.substr(name.size() - kMost));
 }
 
 }  // namespace

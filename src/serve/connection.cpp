@@ -7,6 +7,7 @@
 #include <mimicry/base/error.h>
 
 #include "serve/limits.h"
+#include "serve/text.h"
 
 namespace mimicry::serve {
 namespace {
@@ -43,6 +44,11 @@ std::chrono::nanoseconds time_for(std::uint64_t bytes) {
 
 std::string to_string(beast::string_view text) {
   return {text.data(), text.size()};
+}
+
+Response too_large(const Route& route) {
+  return refusal(413, "the model is larger than " + megabytes(route.largest_body) +
+                          "; simplify it, or bake it with the command line");
 }
 
 }  // namespace
@@ -182,15 +188,9 @@ void Connection::take(Head head) {
 }
 
 void Connection::take_body(const Route& route) {
-  const auto too_large = [&] {
-    return refusal(413, route.largest_body == 0
-                            ? "no content is taken here"
-                            : "the model is larger than " +
-                                  std::to_string(route.largest_body >> 20) +
-                                  " MB; simplify it, or bake it with the command line");
-  };
   const std::uint64_t announced = parser_->content_length().value_or(0);
-  if (route.largest_body == 0 || announced > route.largest_body) return refuse(too_large());
+  if (route.largest_body == 0) return refuse(refusal(413, "no content is taken here"));
+  if (announced > route.largest_body) return refuse(too_large(route));
   if (*all_.held + announced > limits::kHeldBytes)
     return refuse(busy("other models fill the server's memory; try again in a while"));
   const std::string_view expected = pending_->request.head.field("Expect");
@@ -234,10 +234,7 @@ void Connection::on_body(Trouble trouble) {
   if (trouble) return end();
   const std::size_t count = chunk_.size() - parser_->get().body().size;
   moved_ += count;
-  if (moved_ > route_->largest_body)
-    return refuse(refusal(413, "the model is larger than " +
-                                   std::to_string(route_->largest_body >> 20) +
-                                   " MB; simplify it, or bake it with the command line"));
+  if (moved_ > route_->largest_body) return refuse(too_large(*route_));
   if (*all_.held + count > limits::kHeldBytes ||
       !pending_->request.body.append({chunk_.data(), count}))
     return refuse(busy("other models fill the server's memory; try again in a while"));

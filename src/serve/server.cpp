@@ -68,7 +68,9 @@ std::unique_ptr<asio::ssl::context> tls_context(const ServeOptions& options) {
 }
 
 std::optional<Response> only_files(const Request& request) {
-  if (!request.head.field("Content-Type").starts_with("multipart/")) return std::nullopt;
+  const std::string type = lower(request.head.field("Content-Type"));
+  if (!type.starts_with("multipart/") && !type.starts_with("application/x-www-form-urlencoded"))
+    return std::nullopt;
   return refusal(400, "forms are not taken; send the file's bytes as the request's content");
 }
 
@@ -186,7 +188,11 @@ struct Server::State {
   }
 };
 
-Server::Server(const ServeOptions& options) : state_(std::make_unique<State>(options)) {}
+Server::Server(const ServeOptions& options) try : state_(std::make_unique<State>(options)) {
+} catch (const boost::system::system_error& error) {
+  throw Error(ErrorKind::io, std::string("the server cannot start: ") + error.what() +
+                                 "; raise the limits of this user or container (ulimit -a)");
+}
 
 Server::~Server() = default;
 

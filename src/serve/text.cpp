@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -95,11 +96,23 @@ std::optional<std::string> host_of(std::string_view authority) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (host.empty() || port.size() > 5 || !std::all_of(port.begin(), port.end(), is_digit))
     return std::nullopt;
-  std::string lower(host);
-  for (char& c : lower)
+  std::string name = lower(host);
+  if (name.size() > 1 && name.back() == '.') name.pop_back();  // the root of names
+  return name;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  if (lower.size() > 1 && lower.back() == '.') lower.pop_back();  // the root of names
-  return lower;
+  return result;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  constexpr double kMegabyte = 1 << 20;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g MB", static_cast<double>(bytes) / kMegabyte);
+  return text;
 }
 
 std::string error_json(std::string_view sentence) {

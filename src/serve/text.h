@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,12 @@ std::optional<std::string> percent_decoded(std::string_view text);
 
 /// A host without its port, in lower case: `[::1]:80` gives `::1`; nullopt where it is none.
 std::optional<std::string> host_of(std::string_view authority);
+
+/// With ASCII letters in lower case.
+std::string lower(std::string_view text);
+
+/// "1.5 MB", of 1024 times 1024 bytes.
+std::string megabytes(std::uint64_t bytes);
 
 /// {"error": sentence}
 std::string error_json(std::string_view sentence);

@@ -243,6 +243,17 @@ class CommandLine(unittest.TestCase):
         blocked = self.write("file", "")
         fails(4, "project", "shape:sphere", self.path("s.json"), "--out", os.path.join(blocked, "x"))
 
+    def test_numbers_that_are_none_are_refused(self):
+        for option, *words in (("--seed", "-1", "99999999999999999999", "", "1.5", "x", "0x10"),
+                               ("--distance", "", "near"), ("--count", "", "2.5")):
+            for word in words:
+                said = run("simulate", "shape:torus:24", option + "=" + word, "--out",
+                           self.path("no.json"), expect=2).stderr
+                self.assertIn("'" + word + "' is not a", said)
+        self.assertFalse(os.path.exists(self.path("no.json")))
+        run("simulate", "shape:torus:24", "--seed", "18446744073709551615", "--rate", "20", "--out",
+            self.path("yes.json"))
+
     def test_stroke_with_a_fault_is_left_out_and_named(self):
         run("simulate", "shape:sphere", "--count", "3", "--out", self.path("s.json"))
         with open(self.path("s.json"), encoding="utf-8") as file:

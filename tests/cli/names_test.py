@@ -37,6 +37,8 @@ class Names(Folder):
             self.assertTrue(os.path.exists(os.path.join(out, name.encode())))
         with open(os.path.join(out, b"curves.json"), "rb") as file:
             json.load(file)
+        with open(os.path.join(out, b"curves.obj"), encoding="utf-8") as file:
+            self.assertIn("h\ufffd", file.readline())
         self.raw("render", mesh, "--curves", os.path.join(out, b"curves.json"), "--side-by-side",
                  "--width", "60", "--height", "50", "--out", self.path_of(BAD + b".png"))
         self.raw("bake", mesh, "--samples", "40", "--out", self.path_of(BAD + b".mimicry"))
@@ -59,6 +61,8 @@ class Names(Folder):
         self.assertIn("h\ufffd", lines[0]["participant"])
         with open(os.path.join(out, b"replay.json"), encoding="utf-8") as file:
             json.load(file)
+        with open(os.path.join(out, b"rows.csv"), encoding="utf-8") as file:
+            self.assertIn("h\ufffd", file.read())
         # Once more: what is there is recognised.
         self.assertIn("there already",
                       self.raw("replay", "--strokes", strokes, people, "--mesh", "shape:torus:24",

@@ -69,7 +69,11 @@ class ServeBake(Case):
             self.assertIn("bad.obj", sentence)
             self.assertEqual(server.refused("/api/bake?name=a.obj", b"")[0], 422)
             self.assertEqual(server.refused("/api/bake", b"v 0 0 0")[0], 422)
-            self.assertEqual(server.bake("a.obj", b"x" * 20000)[0], 413)
+            status, sentence = server.refused("/api/bake?name=a.obj", b"x" * 20000)
+            self.assertEqual(status, 413)
+            self.assertNotIn("0 MB", sentence.replace("0.", ""))
+            status, sentence = server.refused("/api/bake?name=" + "n" * 2000 + ".obj", b"v 0 0 x")
+            self.assertIn("line 1", sentence)  # it was read as what its name says
             # Announced: refused before it is sent; chunked: when it has become too much.
             self.assertEqual(server.raw(post("/api/bake?name=a.obj", b"", length=20000))[0], 413)
             chunk = b"4000\r\n" + b"x" * 0x4000 + b"\r\n"

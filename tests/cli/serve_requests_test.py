@@ -102,6 +102,8 @@ class ServeRequests(Case):
             for boundary in ["; boundary=x", "", "; boundary=", '; boundary="', "; boundary=" + "y" * 1000]:
                 status, _, _ = self.server.bake("a.obj", body, Content_Type="multipart/form-data" + boundary)
                 self.assertEqual(status, 400, (body, boundary))
+        for kind in ["Multipart/Form-Data; boundary=x", "application/x-www-form-urlencoded", "APPLICATION/X-WWW-FORM-URLENCODED; charset=utf-8"]:
+            self.assertEqual(self.server.bake("a.obj", b"v=0", Content_Type=kind)[0], 400, kind)
 
     def test_methods(self):
         for method, path, expected in [("POST", "/", 405), ("PUT", "/index.html", 405), ("DELETE", "/api/bake", 405), ("GET", "/api/bake", 405),

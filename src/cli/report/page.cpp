@@ -277,7 +277,9 @@ std::string comparisons(const Summary& summary, double level) {
       "signed-rank test, z &gt; 0 where the first technique's values are larger; <b>bold</b> where "
       "p &lt; .05. Holm: p corrected for all measures of a group. By participant: the test of the "
       "participants' means; the strokes of one person resemble each other, which the test over "
-      "strokes (the paper's) takes no account of, so that its p is too small. r = z / √N. "
+      "strokes (the paper's) takes no account of, so that its p is too small. Of "
+      "n participants it cannot be below 2 / 2<sup>n</sup>: five or fewer cannot reach .05. r = z "
+      "/ √N. "
       "Difference: bootstrap interval (BCa) of the mean difference. The same as <code>mimicry "
       "compare</code>.</p>\n";
   for (const MethodPair& pair : summary.pairs) {
