@@ -245,10 +245,11 @@ class CommandLine(unittest.TestCase):
 
     def test_numbers_that_are_none_are_refused(self):
         for option, *words in (("--seed", "-1", "99999999999999999999", "", "1.5", "x", "0x10"),
-                               ("--distance", "", "near"), ("--count", "", "2.5")):
+                               ("--distance", "", "near"), ("--count", "2.5")):
             for word in words:
-                said = run("simulate", "shape:torus:24", option + "=" + word, "--out",
-                           self.path("no.json"), expect=2).stderr
+                given = [option + "=" + word] if word else [option, word]
+                said = run("simulate", "shape:torus:24", *given, "--out", self.path("no.json"),
+                           expect=2).stderr
                 self.assertIn("'" + word + "' is not a", said)
         self.assertFalse(os.path.exists(self.path("no.json")))
         run("simulate", "shape:torus:24", "--seed", "18446744073709551615", "--rate", "20", "--out",
