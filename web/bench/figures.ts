@@ -136,6 +136,28 @@ it.each([86400, 500000, 908000])('dropping %i faces', async (faces) => {
   rmSync(folder, { recursive: true });
 });
 
+it('event to ink', async () => {
+  const { page, context } = await lab.open({ viewport: { width: 1280, height: 800 } });
+  await page.mouse.move(600, 400);
+  await page.mouse.down();
+  const { times, late } = await page.evaluate(async () => {
+    const canvas = document.querySelector('canvas')!, { studio } = window.studio;
+    const times: number[] = [];
+    let late = 0;
+    for (let i = 1; i <= 120; i += 1) {
+      await new Promise(requestAnimationFrame);
+      const before = studio.liveInk!.count, start = performance.now();
+      canvas.dispatchEvent(new PointerEvent('pointermove', { pointerId: 1, pointerType: 'mouse', isPrimary: true, buttons: 1, clientX: 600 + i, clientY: 400 + 20 * Math.sin(i / 9), bubbles: true }));
+      times.push(performance.now() - start);
+      if (studio.liveInk!.count === before) late += 1;
+    }
+    return { times, late };
+  });
+  await page.mouse.up();
+  say('from a pointer event to its ink in the next picture, median (largest)', `${middle(times).toFixed(1)} (${Math.max(...times).toFixed(1)}) ms; ${late} of ${times.length} came later`);
+  await context.close();
+});
+
 it('a hundred curves', async () => {
   const { page, context } = await lab.open({ viewport: { width: 1280, height: 800 } });
   const { frames, pictures, points, triangles } = await page.evaluate(async () => {

@@ -1,4 +1,4 @@
-import { writeFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
@@ -124,6 +124,30 @@ describe('many strokes', () => {
     await expect.poll(picture).toEqual(before);
     await draw(2);
     expect((await messages(page)).join()).toMatch(/graphics driver/);
+  });
+});
+
+describe('a bake that arrives', () => {
+  it.skipIf(!existsSync('embeddings/hand.mimicry'))('is taken in beside the page; curves, their history and drawing go on', async () => {
+    opened = await lab.open({ query: '&embeddings=on' });
+    page = opened.page;
+    await page.evaluate(() => {
+      const target = window.studio.studio.target!;
+      Object.getPrototypeOf(target).withEmbedding = () => { throw new Error('made by the page'); };
+    });
+    await draw(3);
+    const lengths = (): Promise<number[]> => page.evaluate(() => window.studio.studio.state.now.history.drawing.map((drawn) => drawn.curve.length));
+    const before = await lengths();
+    expect(before).toHaveLength(3);
+    await page.evaluate(() => window.studio.studio.undo());
+    await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
+    expect(await lengths()).toEqual(before.slice(0, 2));
+    await page.evaluate(() => window.studio.studio.redo());
+    expect(await lengths()).toEqual(before);
+    await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
+    await draw(1);
+    expect(await lengths()).toHaveLength(4);
+    await page.evaluate(() => window.studio.autosave.settled());
   });
 });
 
