@@ -1,4 +1,4 @@
-import { BufferGeometry, Color, GLBufferAttribute, Group, Mesh, MeshStandardMaterial, Sphere, type BufferAttribute } from 'three';
+import { BufferAttribute, BufferGeometry, Color, GLBufferAttribute, Group, Mesh, MeshStandardMaterial, Sphere } from 'three';
 import { kRingSides, stripFaces, type Tube } from './tube';
 
 /** Rings of a buffer: some hundred strokes. The first is small, as most drawings are. */
@@ -26,6 +26,13 @@ export class InkBatch {
   private readonly indices = new Map<number, GLBufferAttribute>(); // by capacity; without a copy here
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
+
+  /** A mesh with the material of ink, and nothing else. */
+  sample(): Mesh {
+    const geometry = new BufferGeometry(); // shaders depend on what a vertex has
+    for (const [name, size] of [['position', 3], ['normal', 4], ['color', 4]] as const) geometry.setAttribute(name, new BufferAttribute(new Float32Array(size), size));
+    return new Mesh(geometry, this.material);
+  }
 
   /** Copies what the tube shows. */
   add(tube: Tube, color: string): InkPlace {

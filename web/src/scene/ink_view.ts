@@ -41,6 +41,13 @@ export class InkView {
     this.group.add(this.batch.group);
   }
 
+  /** One mesh for each material that ink will have. */
+  samples(): Mesh[] {
+    const live = this.tube({ color: '#000000', radius_m: 1, offset_m: 0 }, 1, () => undefined);
+    this.idle.push(live);
+    return [live.mesh, this.batch.sample()];
+  }
+
   begin(copy: number, style: InkStyle, modelToWorld: Float64Array, width: Width): void {
     const live = this.tube(style, modelToWorld[7]!, width);
     this.live.set(copy, live);

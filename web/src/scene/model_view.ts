@@ -10,7 +10,7 @@ export class ModelView {
   private readonly mirror: Mesh<PlaneGeometry, MeshBasicMaterial>;
 
   constructor(clay: string) {
-    this.mesh = new Mesh(new BufferGeometry(), new MeshStandardMaterial({
+    this.mesh = new Mesh(noTriangles(), new MeshStandardMaterial({
       color: clay, roughness: 0.82, metalness: 0, side: DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     }));
@@ -56,6 +56,13 @@ export class ModelView {
     this.mirror.scale.setScalar(size);
     this.mirror.quaternion.copy(turn.setFromUnitVectors(zAxis, new Vector3(axis === 'x' ? 1 : 0, axis === 'y' ? 1 : 0, axis === 'z' ? 1 : 0)));
   }
+}
+
+/** What a model has, before there is one: the driver makes its program ready by it. */
+function noTriangles(): BufferGeometry {
+  const geometry = new BufferGeometry();
+  for (const name of ['position', 'normal']) geometry.setAttribute(name, new BufferAttribute(new Float32Array(9), 3));
+  return geometry;
 }
 
 const zAxis = new Vector3(0, 0, 1);

@@ -1,5 +1,5 @@
 import {
-  AmbientLight, Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer, type Camera,
+  AmbientLight, Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer, type Camera, type Object3D,
 } from 'three';
 import { CameraRig } from './camera_rig';
 import { RoomFloor } from './room_floor';
@@ -51,6 +51,10 @@ export class Stage {
   private height = 1;
 
   constructor(private readonly canvas: HTMLCanvasElement, antialias: boolean) {
+    // Its buffers are made once, in the size that they will have.
+    const parent = canvas.parentElement!, ratio = Math.min(window.devicePixelRatio, 2);
+    canvas.width = Math.max(1, Math.floor(parent.clientWidth * ratio));
+    canvas.height = Math.max(1, Math.floor(parent.clientHeight * ratio));
     try {
       this.renderer = new WebGLRenderer({ canvas, antialias, alpha: true, powerPreference: 'high-performance' });
     } catch {
@@ -58,6 +62,7 @@ export class Stage {
         'This browser shows no WebGL 2 graphics. Switch on hardware acceleration in its settings, or open the page in a current Chrome, Firefox, Safari or Edge.');
     }
     this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.debug.checkShaderErrors = import.meta.env.DEV; // asking waits for the driver
     this.renderer.xr.enabled = true;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     for (const [scene, key] of [[this.scene, this.key], [this.twin, this.twinKey]] as const) {
@@ -106,6 +111,12 @@ export class Stage {
     this.camera.fov = kFov;
     this.camera.scale.setScalar(1);
     this.resize(true);
+  }
+
+  /** The driver makes ready for these while the page does other things; it takes its time. */
+  warm(objects: Object3D): void {
+    this.renderer.compile(this.scene, this.camera);
+    this.renderer.compile(objects, this.camera, this.scene);
   }
 
   /** A new picture is wanted. */

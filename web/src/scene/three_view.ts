@@ -1,3 +1,4 @@
+import { Group } from 'three';
 import type { Drawing, DrawnCurve, InkStyle } from '../drawing/document';
 import type { Curve, Target } from '../engine/core';
 import type { LoadedModel, StudioView } from '../studio';
@@ -32,6 +33,7 @@ export class ThreeView implements StudioView {
     stage.world.add(this.model.group);
     stage.scene.add(this.pen.group);
     stage.twin.add(this.twin.group);
+    stage.warm(new Group().add(...this.ink.samples()));
   }
 
   set dark(dark: boolean) {
