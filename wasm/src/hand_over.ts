@@ -31,7 +31,7 @@ const kSlice = 8 << 20;
 export function imageOf(m: Module, target: Target, curves: readonly Curve[]): TargetImage {
   return {
     code: codeOf(m), memory: m.HEAPU8.slice(0, usedBytes(m)), memoryBytes: m.HEAPU8.length,
-    target: target.at, curves: curves.map((curve) => curve.at), name: target.name, report: target.report, vertexCount: target.vertexCount,
+    target: target.addressIn(m), curves: curves.map((curve) => curve.addressIn(m)), name: target.name, report: target.report, vertexCount: target.vertexCount,
   };
 }
 
@@ -40,6 +40,7 @@ export function imageOf(m: Module, target: Target, curves: readonly Curve[]): Ta
  * stack is empty, its table of functions is the code's.
  */
 export async function receive(factory: Factory, image: TargetImage): Promise<Received> {
+  if (!(image?.memory instanceof Uint8Array)) throw new MimicryError('invalid_input', 'what was received is not what handOver() gave; send that with postMessage');
   const m = await instantiate(factory, image.code);
   // The only way to let the memory grow that the glue takes notice of.
   if (m.HEAPU8.length < image.memoryBytes && m._malloc(image.memoryBytes) === 0) {
