@@ -173,9 +173,9 @@ export class Target extends Handle {
     }
   }
 
-  /** Takes a curve over from another target of the same mesh, in another memory too; it stays the same object. */
-  adopt(curve: Curve, from: Target): void {
-    const [copy] = this.readCurves(from.writeCurves([curve], 'packed'), curve.stroke);
-    curve.become(copy!);
+  /** Takes curves over from another target of the same mesh, in another memory too: all or none. They stay the same objects. */
+  adopt(curves: readonly Curve[], from: Target): void {
+    const copies = this.readCurves(from.writeCurves(curves, 'packed'), from.name);
+    curves.forEach((curve, i) => curve.become(copies[i]!));
   }
 }

@@ -130,11 +130,12 @@ test('draws frame by frame as all at once, and edits', () => {
 
 test('a target goes to another thread with its memory, and curves move between targets', async () => {
   const worker = await new Mimicry({ wasm: mimicry.code }).ready;
-  const mesh = worker.shape('torus');
-  const first = worker.createTarget(mesh, 'torus');
+  const mesh = worker.shape('sphere');
+  const first = worker.createTarget(mesh, 'sphere');
   const session = first.session('mimicry-live');
   const draw = (on) => on.project(here, frames(100));
   const curve = draw(session);
+  assert.equal(curve.pointCount, 100);
   // As postMessage does it.
   const image = structuredClone({ ...worker.handOver(first, [curve]), code: null });
   const text = textOf(first.writeCurves([curve], 'json'));
@@ -146,10 +147,13 @@ test('a target goes to another thread with its memory, and curves move between t
   assert.deepEqual(again.ink.floats, received.ink.floats);
   const copies = Array.from({ length: 200 }, () => again.withStroke('copy'));
   assert.equal(copies.at(-1).length, again.length);
-  const other = mimicry.createTarget(mesh, 'torus');
-  other.adopt(received, target);
+  const other = mimicry.createTarget(mesh, 'sphere');
+  other.adopt([received, again], target);
   target.dispose();
   assert.equal(textOf(other.writeCurves([received], 'json')), text);
+  assert.equal(again.length, received.length);
+  assert.throws(() => mimicry.createTarget(mimicry.shape('torus'), 'ring').adopt([received], other), /another|drawn on a mesh/);
+  assert.ok(received.length > 0, 'it stays where it was');
 });
 
 test('queries', () => {

@@ -125,10 +125,10 @@ export class Studio {
     const from = this.target;
     if (!from) return;
     this.endStroke();
+    target.adopt([...this.curves], from);
     this.closeSessions();
     this.replayed?.dispose();
     this.replayed = null;
-    for (const curve of this.curves) target.adopt(curve, from);
     from.dispose();
     this.target = target;
     this.state.update({ hasEmbedding: true });
