@@ -62,14 +62,14 @@ const penMoves = (from: number, to: number, more: More = {}): Sent[] =>
 
 /** All techniques work on the first model. */
 async function prepare(): Promise<void> {
-  await page.setInputFiles('input[type=file]', 'dist/embeddings/hand.mimicry');
+  await page.setInputFiles('input[type=file]', 'embeddings/hand.mimicry');
   await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
   await page.evaluate(() => document.querySelectorAll('.message').forEach((message) => message.remove()));
 }
 
 describe('on a screen', () => {
   it('ink comes where the pointer is, with every technique, also zoomed in', async () => {
-    if (existsSync('dist/embeddings/hand.mimicry')) await prepare();
+    if (existsSync('embeddings/hand.mimicry')) await prepare();
     const techniques = await page.evaluate(() => window.studio.studio.core.techniques.filter((t) => window.studio.studio.offers(t.name)).map((t) => t.name));
     for (const zoomed of [false, true]) {
       if (zoomed) {
