@@ -356,6 +356,11 @@ MIMICRY_API mimicry_status mimicry_curve_with_stroke(const mimicry_curve* curve,
 MIMICRY_API mimicry_status mimicry_curve_with_radii(const mimicry_curve* curve, const double* radii,
                                                     mimicry_curve** out);
 
+/* A copy whose tube is raised along the surface's normal in GLB and PLY files. lift: model units,
+ * finite. */
+MIMICRY_API mimicry_status mimicry_curve_with_lift(const mimicry_curve* curve, double lift,
+                                                   mimicry_curve** out);
+
 /* Edits make a new curve on the surface and leave the old one. Radii stay where the points do: in
  * slices and smoothed curves. */
 /* Points [first, end) of it; an open curve. */

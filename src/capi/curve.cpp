@@ -159,6 +159,17 @@ mimicry_status mimicry_curve_with_radii(const mimicry_curve* curve, const double
   });
 }
 
+mimicry_status mimicry_curve_with_lift(const mimicry_curve* curve, double lift,
+                                       mimicry_curve** out) {
+  return made(out, [&] {
+    require(curve, "curve");
+    if (!std::isfinite(lift)) throw Error(ErrorKind::invalid_input, "the lift is not finite");
+    mimicry_curve copy = *curve;
+    copy.record.lift = lift;
+    return copy;
+  });
+}
+
 mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, size_t end,
                                    mimicry_curve** out) {
   return made(out, [&] {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
+#include <mimicry/mesh/normals.h>
 
 namespace mimicry::io {
 
@@ -39,8 +40,38 @@ std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
   return parts;
 }
 
-TubeMesh curve_tubes(const CurveRecord& record, const TriangleMesh& mesh, double radius) {
-  const auto lines = curve::polylines(record.curve, mesh);
+std::vector<Vec3> normals_for_lifts(const CurveSet& set, const TriangleMesh& mesh) {
+  const bool any = std::any_of(set.curves.begin(), set.curves.end(),
+                               [](const CurveRecord& record) { return record.lift != 0.0; });
+  return any ? angle_weighted_normals(mesh) : std::vector<Vec3>{};
+}
+
+namespace {
+
+// As `curve::polylines`, each vertex raised.
+std::vector<std::vector<Vec3>> raised_polylines(const CurveRecord& record, const TriangleMesh& mesh,
+                                                std::span<const Vec3> normals) {
+  const curve::ProjectedCurve& curve = record.curve;
+  std::vector<std::vector<Vec3>> parts;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    if (i == 0 || curve.pieces[i - 1].kind == curve::PieceKind::gap)
+      parts.emplace_back();
+    else
+      for (const Crossing& c : curve.piece_crossings(i - 1))
+        parts.back().push_back(position(mesh, c) +
+                               record.lift * interpolated_normal(mesh, normals, surface_point(c)));
+    parts.back().push_back(curve.points[i].position + record.lift * curve.points[i].normal);
+  }
+  return parts;
+}
+
+}  // namespace
+
+TubeMesh curve_tubes(const CurveRecord& record, const TriangleMesh& mesh, double radius,
+                     std::span<const Vec3> normals) {
+  const bool is_raised = record.lift != 0.0 && !normals.empty();
+  const auto lines =
+      is_raised ? raised_polylines(record, mesh, normals) : curve::polylines(record.curve, mesh);
   std::vector<std::vector<double>> radii;
   if (!record.radii.empty()) radii = polyline_radii(record, mesh);
   std::vector<Vec3> positions;

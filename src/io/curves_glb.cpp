@@ -4,6 +4,7 @@
 
 #include <mimicry/io/curves_glb.h>
 
+#include "io/creased_mesh.h"
 #include "io/curve_tubes.h"
 #include "io/glb.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 using Color = std::array<unsigned char, 3>;
 
+/// Faces that meet at more than this are shown with an edge, as in the studio.
+constexpr double kCrease_rad = 38.0 / 180.0 * 3.14159265358979323846;
 constexpr std::array<double, 3> kTargetColor = {0.6, 0.6, 0.62};
 
 // glTF colours are linear, ours sRGB.
@@ -24,7 +27,8 @@ double linear(unsigned char srgb) {
 template <class Fill>
 std::string scene(const CurveSet& set, const TriangleMesh& mesh, std::span<const Color> colors,
                   Fill&& fill) {
-  std::vector<GlbPart> parts = {{set.target, &mesh, {}, kTargetColor, {}}};
+  const CreasedMesh target = creased_mesh(mesh, kCrease_rad);
+  std::vector<GlbPart> parts = {{set.target, &target.mesh, target.normals, kTargetColor, {}}};
   for (std::size_t i = 0; i < set.curves.size(); ++i) {
     const CurveRecord& record = set.curves[i];
     GlbPart& part = parts.emplace_back();
@@ -39,9 +43,10 @@ std::string scene(const CurveSet& set, const TriangleMesh& mesh, std::span<const
 
 std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
                              std::span<const Color> colors, double radius) {
+  const std::vector<Vec3> normals = normals_for_lifts(set, mesh);
   std::deque<TubeMesh> tubes;  // parts point into it
   return scene(set, mesh, colors, [&](const CurveRecord& record, GlbPart& part) {
-    const TubeMesh& tube = tubes.emplace_back(curve_tubes(record, mesh, radius));
+    const TubeMesh& tube = tubes.emplace_back(curve_tubes(record, mesh, radius, normals));
     part.mesh = &tube.mesh;
     part.normals = tube.normals;
   });

@@ -26,8 +26,9 @@ std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
                              std::span<const std::array<unsigned char, 3>> colors, double radius) {
   std::string vertices, faces;
   std::size_t vertex_count = 0, face_count = 0;
+  const std::vector<Vec3> normals = normals_for_lifts(set, mesh);
   for (std::size_t c = 0; c < set.curves.size(); ++c) {
-    const TubeMesh tube = curve_tubes(set.curves[c], mesh, radius);
+    const TubeMesh tube = curve_tubes(set.curves[c], mesh, radius, normals);
     for (std::size_t v = 0; v < tube.normals.size(); ++v) {
       for (const double x : tube.mesh.positions()[v]) append_little_endian(vertices, x);
       for (const double n : tube.normals[v]) append_little_endian(vertices, static_cast<float>(n));

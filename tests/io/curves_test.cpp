@@ -2,7 +2,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -295,8 +297,8 @@ tinygltf::Model load_glb(const std::string& bytes) {
   return model;
 }
 
-std::vector<Vec3> positions_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-  const auto& accessor = model.accessors.at(std::size_t(primitive.attributes.at("POSITION")));
+std::vector<Vec3> vectors_of(const tinygltf::Model& model, int number) {
+  const auto& accessor = model.accessors.at(std::size_t(number));
   const auto& view = model.bufferViews.at(std::size_t(accessor.bufferView));
   const auto& data = model.buffers.at(std::size_t(view.buffer)).data;
   std::vector<Vec3> positions;
@@ -306,6 +308,10 @@ std::vector<Vec3> positions_of(const tinygltf::Model& model, const tinygltf::Pri
     positions.emplace_back(x[0], x[1], x[2]);
   }
   return positions;
+}
+
+std::vector<Vec3> positions_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  return vectors_of(model, primitive.attributes.at("POSITION"));
 }
 
 TEST(Curves, TinygltfFindsTheCurvesAsLineStrips) {
@@ -347,6 +353,44 @@ TEST(Curves, TinygltfFindsTubesAsThickAsTheirPoints) {
       EXPECT_GT(off(record.curve.points[k].position), 0.99 * record.radii[k] - rounding);
     }
   }
+}
+
+TEST(Curves, TinygltfFindsRaisedTubesAroundTheRaisedPoints) {
+  Sample sample;
+  const double lift = 0.05, radius = 0.01;
+  for (CurveRecord& record : sample.set.curves) record.lift = lift;
+  const tinygltf::Model model =
+      load_glb(write_curves_glb(sample.set, sample.mesh, kColors, radius));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto positions = positions_of(model, model.meshes[i + 1].primitives.at(0));
+    for (const curve::CurvePoint& p : sample.set.curves[i].curve.points) {
+      const Vec3 raised = p.position + lift * p.normal;
+      double nearest = kInfinity;
+      for (const Vec3& x : positions) nearest = std::min(nearest, (x - raised).norm());
+      EXPECT_LT(nearest, radius + 3e-7);  // single precision
+    }
+  }
+}
+
+TEST(Curves, TinygltfFindsNormalsOfTheTargetThatTurnAtItsEdgesOnly) {
+  CurveSet set;
+  set.target = "cube";
+  const TriangleMesh cube = make_shape("cube", {.resolution = 4});
+  const tinygltf::Model model = load_glb(write_curves_glb(set, cube, {}, 0.01));
+  const tinygltf::Primitive& target = model.meshes.at(0).primitives.at(0);
+  const auto positions = positions_of(model, target);
+  const auto normals = vectors_of(model, target.attributes.at("NORMAL"));
+  ASSERT_EQ(positions.size(), normals.size());
+  // Flat sides, and three normals at each of eight corners.
+  std::map<std::array<double, 3>, std::set<std::array<double, 3>>> at;
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    EXPECT_NEAR(normals[v].cwiseAbs().maxCoeff(), 1.0, 1e-6);
+    EXPECT_NEAR(normals[v].norm(), 1.0, 1e-6);
+    const auto& [x, n] = std::pair(positions[v], normals[v]);
+    EXPECT_TRUE((at[{x[0], x[1], x[2]}].insert({n[0], n[1], n[2]}).second)) << "a vertex twice";
+  }
+  EXPECT_EQ(std::count_if(at.begin(), at.end(), [](const auto& p) { return p.second.size() == 3; }),
+            8);
 }
 
 TEST(Curves, TinygltfFindsTheTargetAndATubeForEachCurve) {

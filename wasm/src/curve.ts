@@ -108,6 +108,9 @@ export class Curve extends Handle {
     return new Curve(this.m, made(this.m, (args, out) => this.m._mimicry_curve_with_radii(this.at, args.put(numbers), out)));
   }
 
+  /** A copy whose tube is raised along the surface's normal in GLB and PLY files; model units. */
+  withLift(lift: number): Curve { return this.edited((m, at, out) => m._mimicry_curve_with_lift(at, lift, out)); }
+
   /** radius (of a curve without radii of its own) and lift (along the surface's normal): model units. */
   tube(radius: number, sides = 12, lift = 0): TubeArrays {
     const m = this.m;

@@ -25,6 +25,8 @@ struct CurveRecord {
   /// Of its tube in GLB and PLY files, model units: one for each point, > 0; or empty. Other files
   /// do not keep it.
   std::vector<double> radii = {};
+  /// Of the same tube: how far it is raised along the surface's normal, model units.
+  double lift = 0.0;
 };
 
 /// The radii along `curve::polylines`, crossings included: linear in arc length between points.
