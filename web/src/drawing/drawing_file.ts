@@ -154,7 +154,7 @@ function isObject(value: unknown): boolean {
   return typeof value === 'object' && value !== null;
 }
 
-/** The curves that are left after erasing, for files, as thick as the ink: parts are curves of their own. The caller disposes of them. */
+/** The curves that are left after erasing, for files, as thick and as high as the ink: parts are curves of their own. The caller disposes of them. */
 export function keptCurves(drawing: Drawing): { curves: Curve[]; styles: InkStyle[] } {
   const curves: Curve[] = [], styles: InkStyle[] = [];
   for (const drawn of drawing) {
@@ -171,6 +171,7 @@ export function keptCurves(drawing: Drawing): { curves: Curve[]; styles: InkStyl
         curve = by;
       };
       replace(curve.withRadii(inkRadii(drawn, frames.subarray(from, to))));
+      if (drawn.style.offset_m !== 0) replace(curve.withLift(drawn.style.offset_m / drawn.stroke.modelToWorld[7]!));
       if (drawn.kept.length > 1) replace(curve.withStroke(`${drawn.id}.${part + 1}`));
       curves.push(curve);
       styles.push(drawn.style);

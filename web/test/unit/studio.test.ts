@@ -231,22 +231,22 @@ describe('studio', () => {
   });
 });
 
-describe('exported tubes', () => {
-  /** How far the nearest vertex of the tube is, by the GLB file's second mesh (the first is the model). */
-  function thickness(glb: Uint8Array, at: readonly number[]): number {
-    const view = new DataView(glb.buffer, glb.byteOffset);
-    const jsonBytes = view.getUint32(12, true);
-    const file = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + jsonBytes)));
-    const accessor = file.accessors[file.meshes[1].primitives[0].attributes.POSITION];
-    const start = 28 + jsonBytes + file.bufferViews[accessor.bufferView].byteOffset;
-    let nearest = Infinity;
-    for (let v = 0; v < accessor.count; v += 1) {
-      const x = [0, 4, 8].map((k) => view.getFloat32(start + 12 * v + k, true));
-      nearest = Math.min(nearest, Math.hypot(x[0]! - at[0]!, x[1]! - at[1]!, x[2]! - at[2]!));
-    }
-    return nearest;
+/** How far the nearest vertex of the tube is, by the GLB file's second mesh (the first is the model). */
+function thickness(glb: Uint8Array, at: readonly number[]): number {
+  const view = new DataView(glb.buffer, glb.byteOffset);
+  const jsonBytes = view.getUint32(12, true);
+  const file = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + jsonBytes)));
+  const accessor = file.accessors[file.meshes[1].primitives[0].attributes.POSITION];
+  const start = 28 + jsonBytes + file.bufferViews[accessor.bufferView].byteOffset;
+  let nearest = Infinity;
+  for (let v = 0; v < accessor.count; v += 1) {
+    const x = [0, 4, 8].map((k) => view.getFloat32(start + 12 * v + k, true));
+    nearest = Math.min(nearest, Math.hypot(x[0]! - at[0]!, x[1]! - at[1]!, x[2]! - at[2]!));
   }
+  return nearest;
+}
 
+describe('exported tubes', () => {
   it('are as thick as the ink at each point, each curve by its own style', () => {
     studio.set({ style: { ...studio.settings.style, radius_m: 0.001 } });
     draw(-0.05, 0.05, 0, 30, (i) => i / 29);
@@ -260,6 +260,27 @@ describe('exported tubes', () => {
       expect((scale * thickness(of(curves[0]!), curves[0]!.point(point).position)) / pressed).toBeCloseTo(1, 1);
       expect((scale * thickness(of(curves[1]!), curves[1]!.point(point).position)) / 0.004).toBeCloseTo(1, 1);
     }
+    for (const curve of curves) curve.dispose();
+  });
+});
+
+describe('an exported scene', () => {
+  it('has the ink at its height, with its width, on a model with normals', () => {
+    const offset_m = 0.02, radius_m = 0.003;
+    studio.set({ style: { ...studio.settings.style, radius_m, offset_m } });
+    draw(-0.05, 0.05, 0, 30, (i) => i / 29);
+    const { curves } = keptCurves(studio.state.now.history.drawing);
+    const glb = studio.target!.writeCurves(curves, 'glb');
+    const scale = studio.state.now.modelToWorld[7]!;
+    for (const point of [0, 15, 29]) {
+      const { position, normal } = curves[0]!.point(point);
+      const raised = position.map((x, k) => x + (offset_m / scale) * normal[k]!);
+      expect((scale * thickness(glb, raised)) / (radius_m * (0.35 + (1.3 * point) / 29))).toBeCloseTo(1, 1);
+    }
+    const view = new DataView(glb.buffer, glb.byteOffset);
+    const file = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
+    const { POSITION, NORMAL } = file.meshes[0].primitives[0].attributes;
+    expect(file.accessors[NORMAL].count).toBe(file.accessors[POSITION].count);
     for (const curve of curves) curve.dispose();
   });
 });
