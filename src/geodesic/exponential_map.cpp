@@ -204,6 +204,7 @@ const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& poin
   patch_.coordinates.clear();
   patch_.origin = mesh_.position(p);
   patch_.normal = interpolated_normal(mesh_, normals_, p);
+  if (patch_.normal.isZero(0.0)) patch_.normal = Vec3::UnitZ();  // no area, no plane: any will do
   patch_.x_axis = in_plane(x_hint, patch_.normal);
   patch_.y_axis = patch_.normal.cross(patch_.x_axis);
 
