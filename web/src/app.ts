@@ -43,12 +43,16 @@ export class App implements Actions {
     this.ui = buildInterface(root, this.studio, this);
     new Keyboard(canvas, this.stage, this.studio, this.pointer, this, () => this.ui.help.showModal());
     const { messages } = this.ui;
+    let closeWarning = (): void => undefined;
     this.documents = new Documents(this.studio, {
       modelOf: (source, companions) => this.files.modelOf(source, companions),
       shown: (model, hasBake) => this.shown(model.source, hasBake),
       note: (text) => messages.note(text),
       problem: (text) => messages.problem(text),
-      unsaved: (text) => text && messages.problem(text, { title: 'Save to a file', act: () => this.saveDrawing() }),
+      unsaved: (text) => {
+        closeWarning();
+        if (text) closeWarning = messages.problem(text, { title: 'Save to a file', act: () => this.saveDrawing() });
+      },
     });
     this.files = new Files(root, this.studio, this.documents, this.ui, loader, (axis) => this.turnModel(axis));
     root.append(drawingsPanel(this.documents, messages));
@@ -112,7 +116,10 @@ export class App implements Actions {
       if (document.visibilityState === 'hidden') this.pointer.release();
     };
     document.addEventListener('visibilitychange', leave);
-    window.addEventListener('pagehide', () => this.pointer.release());
+    window.addEventListener('pagehide', () => {
+      this.pointer.release();
+      this.documents.autosave.leave();
+    });
   }
 
   /** The drawing of last time, or the first model. */

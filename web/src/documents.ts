@@ -2,6 +2,7 @@ import { Autosave } from './drawing/autosave';
 import type { Drawing } from './drawing/document';
 import { readDrawing, type DrawingContent } from './drawing/drawing_file';
 import { Library, newDrawingId, type Listed, type Named, type Stored, type StoredEntry, type StoredModel } from './drawing/library';
+import { forgetLastWords, lastWords } from './drawing/last_words';
 import { migrate } from './drawing/migration';
 import { recover, type Part, type Recovered } from './drawing/recover';
 import { indexedDbShelf, PatientShelf } from './drawing/shelf';
@@ -73,6 +74,8 @@ export class Documents {
     let id: string | null = null;
     try {
       id = await migrate(this.shelf, modelTitle);
+      await this.library.heed(lastWords());
+      forgetLastWords();
       id ??= tabDrawing() ?? (await this.library.last());
       this.names = new Set((await this.library.list()).map((drawing) => drawing.name));
       if (!id || !(await this.library.named(id))) return false;
@@ -183,8 +186,8 @@ export class Documents {
     const wasOpen = this.open.now?.id === id;
     if (!(wasOpen && this.open.now?.writes) && (await this.claims.isHeld(id))) throw new Error('That drawing is open in another tab; close that tab first.');
     await this.autosave.settled();
+    await this.library.remove(id); // before other tabs that show it hear that this one has left
     if (wasOpen) this.fresh();
-    await this.library.remove(id);
     return async () => {
       await this.library.bringBack(id);
       if (wasOpen) await this.openKept(id);
@@ -206,7 +209,10 @@ export class Documents {
 
   private changed(now: StudioState, before: StudioState): void {
     if (this.isSwitching || !this.open.now) return;
-    if (now.turn !== before.turn && this.open.now.writes) this.autosave.saveModel(this.storedModel()!);
+    if (now.turn !== before.turn) {
+      if (!this.open.now.writes) return this.copy();
+      this.autosave.saveModel(this.storedModel()!);
+    }
     if (now.history.drawing === before.history.drawing) return;
     if (!this.open.now.writes) return this.copy();
     this.autosave.save(this.studio.target!, now.history.drawing);
@@ -219,8 +225,13 @@ export class Documents {
   private leave(): void {
     this.studio.endStroke();
     const before = this.open.now;
-    if (before?.writes && !before.isOwn && this.studio.state.now.history.drawing.length === 0) this.autosave.discard(before.id);
-    this.claim?.release();
+    const { claim } = this;
+    if (before?.writes && !before.isOwn && this.studio.state.now.history.drawing.length === 0) {
+      this.autosave.discard(before.id);
+      void this.autosave.settled().then(() => claim?.release()); // who follows it sees that it is gone
+    } else {
+      claim?.release();
+    }
     this.claim = null;
     this.open.set(null);
     this.keptCurves.clear();
@@ -285,11 +296,25 @@ export class Documents {
     });
   }
 
-  /** The tab that wrote has gone. */
+  /** The tab that wrote has gone: this one writes, or goes on with a drawing of its own where that one is no more. */
   private async freed(id: string): Promise<void> {
+    const words = lastWords();
+    if (words) await this.library.heed(words).then(forgetLastWords, () => undefined);
+    const named = await this.library.named(id).catch(() => null);
     await this.follow();
     const now = this.open.now;
     if (now?.id !== id || now.writes) return;
+    // A stroke that is under way goes into a copy: what the other tab did last was not looked at.
+    if (this.studio.isDrawing) return;
+    if (!named || named.deleted_ms !== null) {
+      this.claim?.release();
+      if (!named) this.names.delete(now.name);
+      this.begin(now.name, this.storedModel()!, now.isOwn);
+      const { drawing } = this.studio.state.now.history;
+      if (drawing.length > 0) this.autosave.save(this.studio.target!, drawing);
+      if (named) this.host.note(`“${now.name}” was deleted in another tab. Here it goes on as “${this.open.now!.name}”.`);
+      return;
+    }
     this.autosave.resume(id, modelTitle(this.studio.state.now.model!.source), this.keptEntries);
     this.open.set({ ...now, writes: true });
   }

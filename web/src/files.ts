@@ -104,7 +104,7 @@ export class Files {
 
   private async openFile(file: File, beside: readonly File[]): Promise<void> {
     if (kMeshEndings.test(file.name)) {
-      const start = async (): Promise<string> => new TextDecoder().decode(await file.slice(0, kStart).arrayBuffer());
+      const start = async (bytes = kStart): Promise<string> => new TextDecoder().decode(await file.slice(0, bytes).arrayBuffer());
       let model: LoadedModel;
       try {
         model = await this.load(file.name, file, beside);
@@ -115,6 +115,7 @@ export class Files {
       this.documents.openModel(model);
       if (model.turn[3] !== 1) this.ui.messages.note(`${file.name} is taken to have z up.`, { title: 'Turn it (U)', act: () => this.turn('x') });
       if (/\.ply$/i.test(file.name) && /^property int curve\r?$/m.test(await start())) this.ui.messages.note(`${file.name} holds curves as tubes; they are opened as a model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
+      if (/\.glb$/i.test(file.name) && (await start(1 << 22)).includes('"generator":"mimicry"')) this.ui.messages.note(`${file.name} is a scene of this studio: its ink is opened as part of the model. The studio reads curves back from “Curves, JSON” and from saved drawings.`);
       this.ui.messages.say(`${file.name} is open.`);
       return;
     }

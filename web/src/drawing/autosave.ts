@@ -1,7 +1,8 @@
 import type { Curve, Target } from '../engine/core';
 import type { Drawing } from './document';
 import { contentKey, kLastKey, Library, stateKey, type Named, type State, type StoredEntry, type StoredModel } from './library';
-import type { Shelf } from './shelf';
+import { forgetLastWords, keepLastWords, type LastWords } from './last_words';
+import { isTaken, type Shelf } from './shelf';
 
 /**
  * Keeps the open drawing, a stroke at a time: what was kept before is not written again. What is to be
@@ -15,6 +16,8 @@ export class Autosave {
   private readonly remove = new Set<string>();
   private running: Promise<void> | null = null;
   private serial = Date.now();
+  private writing: LastWords = { put: new Map(), remove: [] };
+  private hasLastWords = false;
 
   /** problem: a sentence when saving fails, null when it works. written: drawings that were. */
   constructor(private readonly shelf: Shelf, private readonly problem: (sentence: string | null) => void, private readonly written: (ids: readonly string[]) => void = () => undefined) {}
@@ -82,6 +85,13 @@ export class Autosave {
     while (this.running) await this.running;
   }
 
+  /** The page goes away: what is not written yet is kept for the next one (`lastWords`). */
+  leave(): void {
+    const before = [...this.writing.put].filter(([key]) => !isTaken(key, this.remove));
+    const words = { put: new Map([...before, ...this.put]), remove: [...this.writing.remove, ...this.remove] };
+    if (words.put.size + words.remove.length > 0) this.hasLastWords = keepLastWords(words);
+  }
+
   private curveKey(id: string, curve: Curve): string {
     let key = this.keys.get(curve);
     if (!key) {
@@ -108,6 +118,7 @@ export class Autosave {
     await Promise.resolve(); // a burst of changes is one
     while (this.put.size > 0 || this.remove.size > 0) {
       const put = new Map(this.put), remove = [...this.remove];
+      this.writing = { put, remove };
       this.put.clear();
       this.remove.clear();
       try {
@@ -120,7 +131,10 @@ export class Autosave {
           ? 'The browser’s storage is full: what you draw is kept only until this page closes. Save it to a file, or delete drawings.'
           : 'The browser does not let this page keep the drawing (a private window?). Save it to a file before you close the page.');
       }
+      this.writing = { put: new Map(), remove: [] };
     }
+    if (this.hasLastWords) forgetLastWords(); // the page is still there
+    this.hasLastWords = false;
     this.running = null;
   }
 }

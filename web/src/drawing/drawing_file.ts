@@ -105,7 +105,7 @@ export function readDrawing(core: Core, target: Target, file: DrawingContent, na
   });
   const recovered = recover(target, parts, name, reasons);
   curves.dispose(new Set(recovered.drawing.map((drawn) => drawn.curve)));
-  if (recovered.drawing.length === 0 && parts.length > 0) throw new Error(`${name}: none of its ${parts.length} strokes can be read (${recovered.remarks[0] ?? ''}); use another copy`);
+  if (recovered.drawing.length === 0 && parts.length > 0) throw new Error(`${name}: none of its ${parts.length} strokes can be read: they are damaged; use another copy`);
   return recovered;
 }
 

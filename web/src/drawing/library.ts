@@ -2,7 +2,8 @@ import type { ModelSource } from '../studio';
 import type { DrawingContent } from './drawing_file';
 import type { InkStyle } from './document';
 import type { Range } from './kept';
-import type { Shelf } from './shelf';
+import type { LastWords } from './last_words';
+import { isTaken, type Shelf } from './shelf';
 import type { MirrorAxis } from './symmetry';
 
 /*
@@ -116,6 +117,19 @@ export class Library {
   /** What a new drawing writes of itself. */
   static entryOf(id: string, name: Pick<Named, 'name' | 'isOwn'>): [string, Named] {
     return [nameKey(id), { ...name, created_ms: Date.now(), deleted_ms: null }];
+  }
+
+  /** Writes what a page could not write any more, but for drawings that were kept since. */
+  async heed(words: LastWords | null): Promise<void> {
+    if (!words) return;
+    const put = new Map(words.put), ids = new Set([...put.keys()].map((key) => key.split('/')[1]).filter((id) => id !== undefined));
+    for (const id of ids) {
+      const said = put.get(stateKey(id)) as State | undefined, kept = (await this.shelf.read(stateKey(id))) as State | undefined;
+      if (!kept || (said && said.changed_ms > kept.changed_ms)) continue;
+      for (const key of [...put.keys()]) if (isTaken(key, Library.keysOf(id))) put.delete(key);
+      words.remove = words.remove.filter((key) => key.split('/')[1] !== id);
+    }
+    await this.shelf.write(put, words.remove);
   }
 
   async rename(id: string, name: string): Promise<void> {

@@ -135,7 +135,8 @@ export class PatientShelf implements Shelf {
   }
 }
 
-function isTaken(key: string, removed: Iterable<string>): boolean {
+/** Whether it is among keys, and prefixes that end in `/`. */
+export function isTaken(key: string, removed: Iterable<string>): boolean {
   for (const gone of removed) if (gone.endsWith('/') ? key.startsWith(gone) : key === gone) return true;
   return false;
 }

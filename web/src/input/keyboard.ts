@@ -24,6 +24,7 @@ export class Keyboard {
     if (writesText(at)) return;
     if (event.ctrlKey || event.metaKey) {
       const key = latin(event);
+      this.lift();
       if (key === 'z' && event.shiftKey) this.actions.redo();
       else if (key === 'z') this.actions.undo();
       else if (key === 'y') this.actions.redo();
@@ -53,7 +54,7 @@ export class Keyboard {
       case 't': case 'T': document.getElementById('techniques')?.togglePopover(); break;
       case 'm': case 'M': studio.set({ mirror: studio.settings.mirror === null ? 'x' : null }); break;
       case 'p': case 'P': studio.set({ penPlace: penPlace === 'on a plane' ? 'under the pointer' : 'on a plane' }); break;
-      case 'u': case 'U': this.actions.turnModel(event.shiftKey ? 'z' : 'x'); break;
+      case 'u': case 'U': this.lift(); this.actions.turnModel(event.shiftKey ? 'z' : 'x'); break;
       case 'f': case 'F': this.actions.frameModel(); break;
       case '[': studio.set(resized(studio.settings, 1 / 1.15)); break;
       case ']': studio.set(resized(studio.settings, 1.15)); break;

@@ -26,11 +26,12 @@ export class Messages {
     setTimeout(() => element.remove(), remedy ? kOffer_ms : kNote_ms);
   }
 
-  /** A sentence that stays until it is closed. The same one is not shown twice. */
-  problem(text: string, remedy: Remedy | null = null): void {
-    for (const other of this.element.querySelectorAll('.problem p')) if (other.textContent === text) return;
+  /** A sentence that stays until it is closed, by hand or with what this returns. The same one is not shown twice. */
+  problem(text: string, remedy: Remedy | null = null): () => void {
+    for (const other of this.element.querySelectorAll('.problem')) if (other.querySelector('p')?.textContent === text) return () => other.remove();
     const element = this.add(text, 'problem', remedy && this.button(remedy, () => undefined),
       this.closing(() => element.remove()));
+    return () => element.remove();
   }
 
   /** Something that can be had when it suits; stays until it is taken or closed. */

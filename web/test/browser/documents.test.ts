@@ -221,6 +221,47 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     expect(await names(second)).toEqual(['Hand']);
   });
 
+  it('an empty drawing that the first lets go of goes on in the second', async () => {
+    await settled();
+    const second = await tab(opened.context);
+    await page.evaluate(() => window.studio.openShape('torus'));
+    await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(true);
+    await second.bringToFront();
+    await stroke(second, kAcross);
+    await stroke(second, kLow);
+    await reload(second);
+    expect([await modelName(second), await count(second)]).toEqual(['hand', 2]);
+    expect(await names(second)).toContain('Hand');
+  });
+
+  it('a drawing that the first deletes goes on in the second under a name of its own', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const second = await tab(opened.context);
+    await page.evaluate(() => window.studio.documents.remove(window.studio.documents.open.now!.id));
+    await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(true);
+    expect((await messages(second)).at(-1)).toContain('“Hand” was deleted in another tab');
+    await second.bringToFront();
+    await stroke(second, kLow);
+    await reload(second);
+    expect(await count(second)).toBe(2);
+    const kept = await second.evaluate(async () => (await window.studio.documents.list()).find((d) => d.id === window.studio.documents.open.now!.id));
+    expect(kept!.deleted_ms).toBeNull();
+  });
+
+  it('the second turns the model in a copy', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const second = await tab(opened.context);
+    await second.bringToFront();
+    await second.keyboard.press('u');
+    await expect.poll(() => messages(second)).toEqual([expect.stringContaining('You draw on a copy')]);
+    const turn = await second.evaluate(() => [...window.studio.studio.state.now.turn]);
+    await reload(second);
+    expect(await second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
+    expect(await page.evaluate(() => window.studio.studio.state.now.turn[0])).toBe(0);
+  });
+
   it('a drawing that is open in the other is not deleted; a new name and another side up arrive', async () => {
     await stroke(page, kAcross);
     await settled();
@@ -237,6 +278,44 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     expect(turn[0]).not.toBe(0);
     await expect.poll(() => second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
     expect(await count(second)).toBe(2);
+  });
+});
+
+describe('a page that goes away', () => {
+  it('keeps the stroke that is under way, and what it had no time to write', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    await page.mouse.move(...kLow[0]!);
+    await page.mouse.down();
+    await page.mouse.move(...kLow[1]!, { steps: 6 });
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    expect(await count(page)).toBe(2);
+    await stroke(page, [[310, 300], [350, 300]]);
+    const before = (await summary(page)).curves;
+    await page.reload(); // at once
+    await page.waitForSelector('html[data-ready]');
+    expect((await summary(page)).curves).toEqual(before);
+    await page.mouse.up();
+    expect(await page.evaluate(() => localStorage.getItem('mimicry-last-words'))).toBeNull();
+  });
+
+  it('does not write over what was drawn since', async () => {
+    await stroke(page, kAcross);
+    await settled();
+    const words = await page.evaluate(() => {
+      const { autosave } = window.studio;
+      window.studio.studio.clear();
+      autosave.leave();
+      return localStorage.getItem('mimicry-last-words');
+    });
+    expect(words).not.toBeNull();
+    await page.keyboard.press('Control+z');
+    await stroke(page, kLow);
+    await settled();
+    await page.evaluate((text) => localStorage.setItem('mimicry-last-words', text!), words);
+    await reload(page);
+    expect(await count(page)).toBe(2);
   });
 });
 
@@ -260,6 +339,7 @@ describe('storage that is full', () => {
     expect([await modelName(), await count(page)]).toEqual(['hand', 1]);
     await page.evaluate(() => (window as unknown as { heal(): void }).heal());
     await stroke(page, kLow);
+    await expect.poll(() => messages(page)).not.toContainEqual(expect.stringContaining('storage is full'));
     await reload(page);
     expect(await count(page)).toBe(2);
     expect(await names()).toEqual(['Hand', 'Torus']);

@@ -203,6 +203,18 @@ describe('keyboard', () => {
     await expect.poll(camera).not.toEqual(start);
   });
 
+  it('lifts the pen before it undoes', async () => {
+    await page.locator('canvas').focus();
+    for (const undo of [true, false]) {
+      await page.keyboard.press('Enter');
+      for (let i = 0; i < 8; i += 1) await page.keyboard.press('ArrowRight');
+      if (undo) await page.keyboard.press('Control+z');
+      expect((await summary(page)).curves).toHaveLength(0);
+    }
+    await page.keyboard.press('Enter');
+    expect((await summary(page)).curves).toHaveLength(1);
+  });
+
   it('reaches every control, and the help names the keys', async () => {
     await page.keyboard.press('?');
     expect(await page.getByRole('dialog', { name: 'Drawing in the studio' }).isVisible()).toBe(true);

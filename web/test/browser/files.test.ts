@@ -209,6 +209,7 @@ describe('drawings', () => {
     }
     await choose({ name: 'scene.glb', bytes: glb });
     await expect.poll(modelName).toBe('scene.glb');
+    expect((await messages(page)).at(-1)).toContain('its ink is opened as part of the model');
   });
 
   it('export their erased curves in parts', async () => {
