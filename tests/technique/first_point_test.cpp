@@ -48,28 +48,29 @@ TEST(FirstPoint, OfAPenOnTheSurfaceIsThePenItself) {
 // Where every frame's ray starts at the pen, so does that of a stroke along the surface.
 TEST(FirstPoint, PensOnTheSurfaceNeverZigzag) {
   constexpr std::uint64_t kSeed = 12;
+  int points = 0;  // strokes end where they come to the model's edge
   for (const spatial::Target& target : uneven_shapes()) {
     const Canvas canvas{&target};
     for (const std::string_view name : {"spraycan", "occlude", "anchored-ray-plane",
                                         "anchored-ray-transport", "anchored-closest"}) {
       const TechniqueInfo& info = find_technique(name);
-      Press press = presses(target, 1, kSeed)[0];
-      Memory memory;
-      int points = 0;
-      for (int i = 0; i < 50; ++i) {
-        const Vec3 across = press.direction.unitOrthogonal() * 1e-4 * i;
-        const auto hit = target.first_hit(press.eye, press.direction + across);
-        if (!hit || (hit->position - press.hit.position).norm() > 0.05 * target.diagonal()) break;
-        const Step step = info.step(canvas, memory, frame_of(press, hit->position, i), {});
-        ASSERT_NE(step.answer, Answer::miss) << name << " " << i;
-        EXPECT_LT((step.position - hit->position).norm(), 0.01 * target.diagonal())
-            << name << " " << i;
-        memory = step.memory;
-        ++points;
+      for (const Press& press : presses(target, 4, kSeed)) {
+        Memory memory;
+        for (int i = 0; i < 50; ++i) {
+          const Vec3 across = press.direction.unitOrthogonal() * 1e-4 * i;
+          const auto hit = target.first_hit(press.eye, press.direction + across);
+          if (!hit || (hit->position - press.hit.position).norm() > 0.05 * target.diagonal()) break;
+          const Step step = info.step(canvas, memory, frame_of(press, hit->position, i), {});
+          ASSERT_NE(step.answer, Answer::miss) << name << " " << i;
+          EXPECT_LT((step.position - hit->position).norm(), 0.01 * target.diagonal())
+              << name << " " << i;
+          memory = step.memory;
+          ++points;
+        }
       }
-      EXPECT_GT(points, 10) << name;
     }
   }
+  EXPECT_GT(points, 400);
 }
 
 TEST(DippedPen, StartsAtTheSurfaceItWentThrough) {

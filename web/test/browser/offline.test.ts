@@ -18,6 +18,7 @@ beforeAll(async () => {
   cpSync('dist', folder, { recursive: true });
   const build = /name="build" content="(\w+)"/.exec(readFileSync(join(folder, 'index.html'), 'utf8'))![1]!;
   for (const file of ['index.html', 'sw.js']) writeFileSync(join(folder, file), readFileSync(join(folder, file), 'utf8').replace(build, 'thenextbuild').replace('"icon.svg"', '"icon.svg","assets/next.js"'));
+  for (const file of ['index.html', 'sw.js']) for (const form of ['.br', '.gz']) rmSync(join(folder, file + form), { force: true }); // of the old ones
   writeFileSync(join(folder, 'assets', 'next.js'), '');
 });
 afterAll(async () => {
