@@ -51,8 +51,7 @@ TEST(FirstPoint, PensOnTheSurfaceNeverZigzag) {
   int points = 0;  // strokes end where they come to the model's edge
   for (const spatial::Target& target : uneven_shapes()) {
     const Canvas canvas{&target};
-    for (const std::string_view name : {"spraycan", "occlude", "anchored-ray-plane",
-                                        "anchored-ray-transport", "anchored-closest"}) {
+    for (const std::string_view name : {"spraycan", "occlude"}) {
       const TechniqueInfo& info = find_technique(name);
       for (const Press& press : presses(target, 4, kSeed)) {
         Memory memory;
@@ -70,7 +69,7 @@ TEST(FirstPoint, PensOnTheSurfaceNeverZigzag) {
       }
     }
   }
-  EXPECT_GT(points, 400);
+  EXPECT_GT(points, 150);
 }
 
 TEST(DippedPen, StartsAtTheSurfaceItWentThrough) {
