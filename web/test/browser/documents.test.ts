@@ -168,7 +168,7 @@ describe('drawings', () => {
     await choose('one.mimicry-drawing', spoil((file) => { file.strokes.strokes[0].frames[2].controller.position[1] = null; }));
     await expect.poll(() => modelName()).toBe('hand');
     expect((await summary(page)).curves.map((c) => c.id)).toEqual([JSON.parse(saved.toString()).entries[1].id]);
-    expect((await messages(page)).at(-1)).toContain(id);
+    await expect.poll(async () => (await messages(page)).at(-1)).toContain(id);
     expect(await names()).toEqual(['Hand', 'Hand 2', 'Torus']);
   });
 });
@@ -185,7 +185,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await settled();
     const second = await tab(opened.context);
     expect(await count(second)).toBe(1);
-    expect(await messages(second)).toEqual([expect.stringContaining('open in another tab')]);
+    await expect.poll(() => messages(second)).toEqual([expect.stringContaining('open in another tab')]);
     await page.bringToFront();
     await stroke(page, kLow);
     await expect.poll(() => count(second)).toBe(2);
@@ -240,7 +240,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     const second = await tab(opened.context);
     await page.evaluate(() => window.studio.documents.remove(window.studio.documents.open.now!.id));
     await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(true);
-    expect((await messages(second)).at(-1)).toContain('“Hand” was deleted in another tab');
+    await expect.poll(async () => (await messages(second)).at(-1)).toContain('“Hand” was deleted in another tab');
     await second.bringToFront();
     await stroke(second, kLow);
     await reload(second);

@@ -209,7 +209,7 @@ describe('drawings', () => {
     }
     await choose({ name: 'scene.glb', bytes: glb });
     await expect.poll(modelName).toBe('scene.glb');
-    expect((await messages(page)).at(-1)).toContain('its ink is opened as part of the model');
+    await expect.poll(async () => (await messages(page)).at(-1)).toContain('its ink is opened as part of the model');
   });
 
   it('export their erased curves in parts', async () => {
@@ -259,7 +259,7 @@ describe('drawings', () => {
     await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/1 curve added\. .*without recorded strokes/);
     expect(await ink()).toEqual(before);
     await page.evaluate(() => { window.studio.studio.set({ compare: 'spraycan' }); window.studio.redrawLast(); });
-    expect((await messages(page)).at(-1)).toContain('without its recorded stroke');
+    await expect.poll(async () => (await messages(page)).at(-1)).toContain('without its recorded stroke');
     await settled();
     await page.reload();
     await page.waitForSelector('html[data-ready]');

@@ -208,7 +208,7 @@ describe('a headset', () => {
     expect(drawing).toBe(false);
     expect(curves).toHaveLength(1);
     expect(curves[0]!.frames).toBeLessThan(22);
-    expect(await messages(page)).toEqual([expect.stringContaining('lost from sight')]);
+    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('lost from sight')]);
     await draw();
     expect((await summary(page)).curves).toHaveLength(2);
   });

@@ -103,7 +103,7 @@ describe('on a screen', () => {
     expect(lengths[1]).toBeGreaterThan(0.9);
     // Whatever the stroke, the sentence knows what the technique needs.
     await page.evaluate(() => window.studio.pointer.pen.onLittleInk('mimicry-planar'));
-    expect((await messages(page)).at(-1)).toMatch(/Mimicry planar.*needs a hand that moves in space/);
+    await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/Mimicry planar.*needs a hand that moves in space/);
   });
 
   it('the pen on a plane draws as fast in the window from near as from far', async () => {

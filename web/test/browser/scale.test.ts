@@ -123,7 +123,7 @@ describe('many strokes', () => {
     });
     await expect.poll(picture).toEqual(before);
     await draw(2);
-    expect((await messages(page)).join()).toMatch(/graphics driver/);
+    await expect.poll(async () => (await messages(page)).join()).toMatch(/graphics driver/);
   });
 });
 
