@@ -148,6 +148,8 @@ ExactPath ExactGeodesics::State::path_to(const SurfacePoint& target) const {
       step.index = end;
     }
     const Index v = step.index;
+    // Only faces that name a vertex twice use v: no crossing stands for it.
+    if (half_edges.outgoing(v) < 0) return {};
     below = at(v);
     step = from_vertex(v);
     if (step.kind != Step::Kind::source)

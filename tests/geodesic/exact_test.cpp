@@ -460,5 +460,19 @@ TEST(ExactGeodesics, WithoutSourcesNothingIsReachable) {
   EXPECT_FALSE(geodesics.path_to(vertex_point(edges, 0)).found);
 }
 
+TEST(ExactGeodesics, NoPathLeadsOverAVertexThatOnlyFacesThatNameItTwiceUse) {
+  // Two triangles, and between them a vertex that no half-edge leaves.
+  const TriangleMesh mesh(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}, {1, 4, 0}, {0, 4, 0}},
+      {{0, 1, 2}, {2, 3, 3}, {3, 3, 4}, {4, 5, 6}});
+  const HalfEdges edges(mesh);
+  ASSERT_LT(edges.outgoing(3), 0);
+  ExactGeodesics geodesics(mesh, edges);
+  geodesics.compute({0, Vec3(0, 0, 1)});
+  const SurfacePoint target{3, Vec3::Constant(1.0 / 3.0)};
+  ASSERT_LT(geodesics.distance(target), kInfinity);  // the way is there, its crossings are not
+  EXPECT_FALSE(geodesics.path_to(target).found);
+}
+
 }  // namespace
 }  // namespace mimicry::geodesic
