@@ -393,6 +393,38 @@ TEST(Curves, TinygltfFindsNormalsOfTheTargetThatTurnAtItsEdgesOnly) {
             8);
 }
 
+TEST(Curves, NormalsOfAMessyTargetAreOfUnitLength) {
+  // A face on a line, one in a point, one and its back, and more faces around a vertex than are
+  // compared with each other.
+  std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 3, 0}, {1, 3, 0}, {0, 4, 0}};
+  std::vector<Face> faces = {{0, 1, 2}, {0, 0, 0}, {3, 4, 5}, {3, 5, 4}};
+  const Index middle = static_cast<Index>(positions.size());
+  constexpr Index kAround = 300;
+  positions.emplace_back(0, 0, 9);
+  for (Index k = 0; k < kAround; ++k) {
+    const double a = 2.0 * 3.14159265358979323846 * k / kAround;
+    positions.emplace_back(std::cos(a), std::sin(a), k % 2 == 0 ? 8.0 : 7.9);
+    faces.push_back({middle, middle + 1 + k, middle + 1 + (k + 1) % kAround});
+  }
+  const TriangleMesh mesh(positions, faces);
+  CurveSet set;
+  set.target = "messy";
+  const tinygltf::Model model = load_glb(write_curves_glb(set, mesh, {}, 0.01));
+  const tinygltf::Primitive& target = model.meshes.at(0).primitives.at(0);
+  const auto places = positions_of(model, target);
+  const auto normals = vectors_of(model, target.attributes.at("NORMAL"));
+  ASSERT_EQ(places.size(), normals.size());
+  ASSERT_GT(normals.size(), positions.size());
+  int at_middle = 0;
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    EXPECT_NEAR(normals[v].norm(), 1.0, 1e-6) << places[v].transpose();
+    if (places[v] != positions[at(middle)]) continue;
+    ++at_middle;
+    EXPECT_GT(normals[v].z(), 0.9);
+  }
+  EXPECT_EQ(at_middle, 1);
+}
+
 TEST(Curves, TinygltfFindsTheTargetAndATubeForEachCurve) {
   const Sample sample;
   const tinygltf::Model model = load_glb(write_curves_glb(sample.set, sample.mesh, kColors, 0.01));
