@@ -274,18 +274,6 @@ describe('drawings', () => {
     await expect.poll(async () => (await messages(page)).at(-1)).toMatch(/c\.json: curves on “hand” \(.*\), and “torus” is open; open that model/);
     expect(await ink()).toEqual([]);
   });
-
-  it('that cannot be kept say so', async () => {
-    await page.evaluate(() => {
-      const { put } = IDBObjectStore.prototype;
-      IDBObjectStore.prototype.put = () => { throw new DOMException('full', 'QuotaExceededError'); };
-      Object.assign(window, { heal: () => { IDBObjectStore.prototype.put = put; } });
-    });
-    await stroke(page, kAcross);
-    await expect.poll(() => messages(page)).toEqual([expect.stringContaining('storage is full')]);
-    expect((await summary(page)).curves).toHaveLength(1);
-    await page.evaluate(() => (window as unknown as { heal(): void }).heal());
-  });
 });
 
 describe('preparing', () => {
