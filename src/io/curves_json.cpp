@@ -6,6 +6,7 @@
 
 #include "io/json.h"
 #include "io/json_document.h"
+#include "io/json_text.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -31,50 +32,48 @@ const char* kind_name(PieceKind kind) {
   return "";
 }
 
-OrderedJson point_json(const CurvePoint& p, const TriangleMesh& mesh) {
-  return {{"face", p.surface.face},
-          {"bary", array_of(source_point(mesh, p.surface).bary)},
-          {"position", array_of(p.position)},
-          {"normal", array_of(p.normal)},
-          {"frame", p.frame},
-          {"time_s", p.time_s},
-          {"pen_distance", p.pen_distance}};
+void write(JsonText& out, const CurvePoint& p, const TriangleMesh& mesh) {
+  out.begin('{')
+      .member("face", p.surface.face)
+      .member("bary", source_point(mesh, p.surface).bary)
+      .member("position", p.position)
+      .member("normal", p.normal)
+      .member("frame", p.frame)
+      .member("time_s", p.time_s)
+      .member("pen_distance", p.pen_distance)
+      .end('}');
 }
 
-OrderedJson piece_json(const ProjectedCurve& curve, std::size_t i, const TriangleMesh& mesh) {
-  OrderedJson crossings = OrderedJson::array();
+void write_piece(JsonText& out, const ProjectedCurve& curve, std::size_t i,
+                 const TriangleMesh& mesh) {
+  out.begin('{').member("kind", kind_name(curve.pieces[i].kind));
+  out.member("length", curve.pieces[i].length).key("crossings").begin('[');
   for (const Crossing& crossing : curve.piece_crossings(i)) {
     const Index f = HalfEdges::face(crossing.half_edge);
     const Crossing c = source_crossing(mesh, crossing);
     const int k = HalfEdges::corner(c.half_edge);
     const auto own = [&](int corner) { return source_corner(mesh, f, corner); };
-    crossings.push_back(
-        {{"half_edge", c.half_edge}, {"edge", {own(k), own((k + 1) % 3)}}, {"t", c.t}});
+    out.begin('{').member("half_edge", c.half_edge);
+    out.member("edge", std::array{own(k), own((k + 1) % 3)}).member("t", c.t).end('}');
   }
-  return {{"kind", kind_name(curve.pieces[i].kind)},
-          {"length", curve.pieces[i].length},
-          {"crossings", crossings}};
+  out.end(']').end('}');
 }
 
-OrderedJson curve_json(const CurveRecord& record, const TriangleMesh& mesh) {
-  OrderedJson options = OrderedJson::object();
-  for (const auto& [name, values] : record.options) options[name] = values;
-  OrderedJson points = OrderedJson::array();
-  for (const CurvePoint& p : record.curve.points) points.push_back(point_json(p, mesh));
-  OrderedJson pieces = OrderedJson::array();
+void write(JsonText& out, const CurveRecord& record, const TriangleMesh& mesh) {
+  const Similarity& placed = record.model_to_world;
+  out.begin('{').member("stroke", record.stroke).member("technique", record.technique);
+  out.key("options").begin('{');
+  for (const auto& [name, values] : record.options) out.member(name, values);
+  out.end('}').key("model_to_world").begin('{');
+  out.member("rotation", placed.rotation).member("translation", placed.translation);
+  out.member("scale", placed.scale).end('}');
+  out.member("length", curve::length(record.curve)).member("closed", record.curve.closed);
+  out.key("points").begin('[');
+  for (const CurvePoint& p : record.curve.points) write(out, p, mesh);
+  out.end(']').key("pieces").begin('[');
   for (std::size_t i = 0; i < record.curve.pieces.size(); ++i)
-    pieces.push_back(piece_json(record.curve, i, mesh));
-  return {{"stroke", record.stroke},
-          {"technique", record.technique},
-          {"options", options},
-          {"model_to_world",
-           {{"rotation", array_of(record.model_to_world.rotation)},
-            {"translation", array_of(record.model_to_world.translation)},
-            {"scale", record.model_to_world.scale}}},
-          {"length", curve::length(record.curve)},
-          {"closed", record.curve.closed},
-          {"points", points},
-          {"pieces", pieces}};
+    write_piece(out, record.curve, i, mesh);
+  out.end(']').end('}');
 }
 
 Index bounded(const Json& value, Index count, const std::string& where) {
@@ -161,18 +160,22 @@ CurveRecord read_record(const Json& value, const TriangleMesh& mesh, const std::
 }  // namespace
 
 std::string write_curves_json(const CurveSet& set, const TriangleMesh& mesh) {
-  const OrderedJson target = {
-      {"name", set.target}, {"vertices", source_vertex_count(mesh)}, {"faces", mesh.face_count()}};
-  const auto replace = OrderedJson::error_handler_t::replace;
+  JsonText target;
+  target.begin('{').member("name", set.target).member("vertices", source_vertex_count(mesh));
+  target.member("faces", mesh.face_count()).end('}');
   std::string out = "{\"format\":\"" + std::string(kCurvesFormat) +
                     "\",\"version\":" + std::to_string(kCurvesVersion) +
-                    ",\"target\":" + target.dump(-1, ' ', false, replace) + ",\"curves\":[";
+                    ",\"target\":" + target.text() + ",\"curves\":[";
   const char* separator = "\n";
   for (const CurveRecord& record : set.curves) {
-    out += separator + curve_json(record, mesh).dump(-1, ' ', false, replace);
+    JsonText curve;
+    write(curve, record, mesh);
+    out += separator;
+    out += curve.text();
     separator = ",\n";
   }
-  return out + "\n]}\n";
+  out += "\n]}\n";
+  return out;
 }
 
 CurveSet read_curves_json(std::string_view bytes, std::string_view name, const TriangleMesh& mesh) {

@@ -21,6 +21,8 @@ namespace mimicry::io {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
+class JsonText;
+
 [[noreturn]] inline void json_fail(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::invalid_input, where + ": " + what);
 }
@@ -77,15 +79,8 @@ inline Quat quaternion(const Json& value, const std::string& where) {
   return Quat(vector<4>(value, where));
 }
 
-inline OrderedJson array_of(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-inline OrderedJson array_of(const Quat& q) {
-  return {q.x(), q.y(), q.z(), q.w()};
-}
-
 /// {"program", "seed", "technique"}, the last only where there is one.
 stroke::Simulation read_simulation(const Json& value, const std::string& where);
-OrderedJson to_json(const stroke::Simulation& simulation);
+void write_simulation(JsonText& out, const stroke::Simulation& simulation);
 
 }  // namespace mimicry::io

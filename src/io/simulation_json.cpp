@@ -1,4 +1,4 @@
-#include "io/json.h"
+#include "io/json_text.h"
 
 namespace mimicry::io {
 
@@ -14,10 +14,10 @@ stroke::Simulation read_simulation(const Json& value, const std::string& where) 
   return simulation;
 }
 
-OrderedJson to_json(const stroke::Simulation& simulation) {
-  OrderedJson value = {{"program", simulation.program}, {"seed", simulation.seed}};
-  if (!simulation.technique.empty()) value["technique"] = simulation.technique;
-  return value;
+void write_simulation(JsonText& out, const stroke::Simulation& simulation) {
+  out.begin('{').member("program", simulation.program).member("seed", simulation.seed);
+  if (!simulation.technique.empty()) out.member("technique", simulation.technique);
+  out.end('}');
 }
 
 }  // namespace mimicry::io

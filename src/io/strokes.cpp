@@ -6,6 +6,7 @@
 
 #include "io/json.h"
 #include "io/json_document.h"
+#include "io/json_text.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -129,27 +130,27 @@ struct StrokesHeader {
   }
 };
 
-OrderedJson to_json(const Pose& pose) {
-  return {{"position", array_of(pose.position)}, {"orientation", array_of(pose.orientation)}};
+void write(JsonText& out, const Pose& pose) {
+  out.begin('{').member("position", pose.position);
+  out.member("orientation", pose.orientation).end('}');
 }
 
-OrderedJson to_json(const Frame& frame) {
-  OrderedJson value = {{"time_s", frame.time_s},
-                       {"head", to_json(frame.head)},
-                       {"controller", to_json(frame.controller)},
-                       {"trigger", frame.trigger}};
-  if (frame.pressure) value["pressure"] = *frame.pressure;
-  return value;
+void write(JsonText& out, const Frame& frame) {
+  out.begin('{').member("time_s", frame.time_s);
+  write(out.key("head"), frame.head);
+  write(out.key("controller"), frame.controller);
+  out.member("trigger", frame.trigger);
+  if (frame.pressure) out.member("pressure", *frame.pressure);
+  out.end('}');
 }
 
-OrderedJson to_json(const Intention& intention) {
-  OrderedJson faces = OrderedJson::array();
-  OrderedJson bary = OrderedJson::array();
-  for (const SurfacePoint& p : intention.points) {
-    faces.push_back(p.face);
-    bary.push_back(array_of(p.bary));
-  }
-  return {{"name", intention.name}, {"closed", intention.closed}, {"face", faces}, {"bary", bary}};
+void write(JsonText& out, const Intention& intention) {
+  out.begin('{').member("name", intention.name).member("closed", intention.closed);
+  out.key("face").begin('[');
+  for (const SurfacePoint& p : intention.points) out.value(p.face);
+  out.end(']').key("bary").begin('[');
+  for (const SurfacePoint& p : intention.points) out.value(p.bary);
+  out.end(']').end('}');
 }
 
 // What a text holds of a file: a header of `head` bytes, and what stands in the file at `begin`.
@@ -271,19 +272,16 @@ StrokeWriter::StrokeWriter(Sink sink, const CoordinateConvention& convention)
 void StrokeWriter::write(const Stroke& stroke) {
   stroke::require_usable(stroke);
   const Similarity placed = convention_->placement_out(stroke.model_to_world);
-  OrderedJson value = {{"id", stroke.id},
-                       {"target", stroke.target},
-                       {"model_to_world",
-                        {{"rotation", array_of(placed.rotation)},
-                         {"translation", array_of(placed.translation)},
-                         {"scale", placed.scale}}}};
-  if (stroke.intended) value["intended"] = to_json(*stroke.intended);
-  if (stroke.simulated) value["simulated"] = to_json(*stroke.simulated);
-  OrderedJson& frames = value["frames"] = OrderedJson::array();
-  for (const Frame& frame : stroke.frames) frames.push_back(to_json(convention_->frame_out(frame)));
-  // Text that is not UTF-8 would throw; ids and names are replaced where they are not.
-  const std::string dumped = value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  sink_((first_ ? "\n" : ",\n") + dumped);
+  JsonText out;
+  out.begin('{').member("id", stroke.id).member("target", stroke.target);
+  out.key("model_to_world").begin('{').member("rotation", placed.rotation);
+  out.member("translation", placed.translation).member("scale", placed.scale).end('}');
+  if (stroke.intended) io::write(out.key("intended"), *stroke.intended);
+  if (stroke.simulated) write_simulation(out.key("simulated"), *stroke.simulated);
+  out.key("frames").begin('[');
+  for (const Frame& frame : stroke.frames) io::write(out, convention_->frame_out(frame));
+  out.end(']').end('}');
+  sink_((first_ ? "\n" : ",\n") + out.text());
   first_ = false;
 }
 

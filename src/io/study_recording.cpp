@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "io/json.h"
 #include "io/json_document.h"
+#include "io/json_text.h"
 #include "io/text.h"
 
 namespace mimicry::io {
@@ -119,40 +121,36 @@ RecordedStroke read_stroke(const Json& value) {
   return stroke;
 }
 
-OrderedJson xyz_json(const Vec3& v) {
-  return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
+void write_xyz(JsonText& out, const Vec3& v) {
+  out.begin('{').member("x", v.x()).member("y", v.y()).member("z", v.z()).end('}');
 }
 
-OrderedJson frame_json(const RecordedFrame& f) {
-  return {{"PT", xyz_json(f.point)},
-          {"N", xyz_json(f.normal)},
-          {"TI", f.surface.face + 1},
-          {"B", xyz_json(f.surface.bary)},
-          {"D", f.pen_distance},
-          {"DF",
-           {{"T", f.time_ms},
-            {"HP", xyz_json(f.head)},
-            {"PP", xyz_json(f.pen)},
-            {"HU", xyz_json(f.head_up)},
-            {"HF", xyz_json(f.head_forward)},
-            {"CU", xyz_json(f.pen_up)},
-            {"CF", xyz_json(f.pen_forward)},
-            {"SD", xyz_json(f.spray)}}}};
+void write(JsonText& out, const RecordedFrame& f) {
+  write_xyz(out.begin('{').key("PT"), f.point);
+  write_xyz(out.key("N"), f.normal);
+  write_xyz(out.member("TI", f.surface.face + 1).key("B"), f.surface.bary);
+  out.member("D", f.pen_distance).key("DF").begin('{').member("T", f.time_ms);
+  for (const auto& [name, v] :
+       std::initializer_list<std::pair<const char*, const Vec3&>>{{"HP", f.head},
+                                                                  {"PP", f.pen},
+                                                                  {"HU", f.head_up},
+                                                                  {"HF", f.head_forward},
+                                                                  {"CU", f.pen_up},
+                                                                  {"CF", f.pen_forward},
+                                                                  {"SD", f.spray}})
+    write_xyz(out.key(name), v);
+  out.end('}').end('}');
 }
 
-OrderedJson piece_json(const RecordedPiece& piece) {
-  OrderedJson points = OrderedJson::array();
-  OrderedJson frames = OrderedJson::array();
-  for (const RecordedFrame& f : piece.frames) {
-    points.push_back(xyz_json(f.point));
-    frames.push_back(frame_json(f));
-  }
-  OrderedJson matrix = OrderedJson::array();
-  for (Eigen::Index i = 0; i < 16; ++i) matrix.push_back(piece.model_to_world.data()[i]);
-  return {{"P", std::move(points)},
-          {"F", std::move(frames)},
-          {"M", piece.method},
-          {"ModelMatrix", {{"data", std::move(matrix)}}}};
+void write(JsonText& out, const RecordedPiece& piece, const RecordedStroke& stroke) {
+  out.begin('{').key("P").begin('[');
+  for (const RecordedFrame& f : piece.frames) write_xyz(out, f.point);
+  out.end(']').key("F").begin('[');
+  for (const RecordedFrame& f : piece.frames) write(out, f);
+  out.end(']').member("M", piece.method).key("ModelMatrix").begin('{');
+  out.member("data", std::span<const double>(piece.model_to_world.data(), 16)).end('}');
+  if (stroke.simulated) write_simulation(out.key("Simulated"), *stroke.simulated);
+  out.end('}');
 }
 
 }  // namespace
@@ -190,15 +188,16 @@ std::string write_recording(std::span<const RecordedStroke> strokes) {
   std::string out = "[";
   const char* separator = "\n";
   for (const RecordedStroke& stroke : strokes) {
-    OrderedJson pieces = OrderedJson::array();
-    for (const RecordedPiece& piece : stroke.pieces) {
-      pieces.push_back(piece_json(piece));
-      if (stroke.simulated) pieces.back()["Simulated"] = to_json(*stroke.simulated);
-    }
-    out += separator + pieces.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    JsonText pieces;
+    pieces.begin('[');
+    for (const RecordedPiece& piece : stroke.pieces) write(pieces, piece, stroke);
+    pieces.end(']');
+    out += separator;
+    out += pieces.text();
     separator = ",\n";
   }
-  return out + "\n]\n";
+  out += "\n]\n";
+  return out;
 }
 
 }  // namespace mimicry::io

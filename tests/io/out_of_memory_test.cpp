@@ -1,4 +1,5 @@
-// Readers leave with bad_alloc wherever memory ends, and do not end the program.
+// Readers and writers leave with bad_alloc wherever memory ends, and do not end the program.
+#include <array>
 #include <functional>
 #include <new>
 #include <string>
@@ -7,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
+#include <mimicry/io/curves.h>
 #include <mimicry/io/mesh_reader.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/io/study_recording.h>
 #include <mimicry/io/targets_reader.h>
+#include <mimicry/io/targets_writer.h>
+#include <mimicry/mesh/shapes.h>
 
 #include "support/allocations.h"
 
@@ -64,6 +68,33 @@ TEST(OutOfMemory, EveryAllocationOfAReaderMayFail) {
               }
             }),
             10);
+}
+
+TEST(OutOfMemory, EveryAllocationOfAWriterMayFail) {
+  const TriangleMesh mesh = make_box(1, 1, 1, Vec3::Ones());
+  stroke::Stroke stroke;
+  stroke.id = "an identifier that is kept on the heap";
+  stroke.intended = stroke::Intention{"a", false, {{0, Vec3(1, 0, 0)}, {1, Vec3(0, 1, 0)}}};
+  stroke.simulated = stroke::Simulation{"mimicry", 1, "snap"};
+  CurveRecord record;
+  record.stroke = stroke.id;
+  record.options["a"] = {1.0, 2.0};
+  study::RecordedStroke recorded;
+  recorded.pieces.resize(2);
+  study::TargetCurve target;
+  for (int i = 0; i < 20; ++i) {
+    stroke.frames.emplace_back().time_s = 0.1 * i;
+    record.curve.points.push_back({{0, Vec3(1, 0, 0)}, Vec3::Zero(), Vec3::UnitX(), i, 0.1 * i, 0});
+    if (i > 0) record.curve.pieces.emplace_back();
+    recorded.pieces[0].frames.emplace_back();
+    target.points.push_back({0, Vec3(1, 0, 0)});
+  }
+  const CurveSet curves{"box", {record, record}};
+  const study::TargetSet targets{{{"box", 1.0, {target, target}}}};
+  EXPECT_GT(allocations_needed([&] { write_strokes(std::array{stroke, stroke}); }), 10);
+  EXPECT_GT(allocations_needed([&] { write_curves_json(curves, mesh); }), 10);
+  EXPECT_GT(allocations_needed([&] { write_recording(std::array{recorded, recorded}); }), 10);
+  EXPECT_GT(allocations_needed([&] { write_targets(targets, "a note"); }), 10);
 }
 
 TEST(OutOfMemory, TextsThatNestWithoutEndAreRefusedByName) {
