@@ -31,7 +31,7 @@ struct OutputLock::Held {
   Descriptor file;
   std::string path;  // of the lock's own file; empty: none
   std::unique_ptr<Unfinished> unfinished;
-  std::string made;  // a folder; empty: none
+  std::string made;  // the folder, where it was; empty: none
 
   ~Held() {
     // While the lock is held: whoever waits for this file finds that it has no name any more.
@@ -47,12 +47,14 @@ OutputLock::~OutputLock() = default;
 OutputLock OutputLock::of_folder(const std::string& folder) {
   std::error_code none;
   const bool was_there = std::filesystem::exists(folder, none);
+  auto unfinished = was_there ? nullptr : std::make_unique<Unfinished>(folder);
   make_folder(folder);
+  if (unfinished) unfinished->made();
   Descriptor file(open_file(folder, O_RDONLY | O_DIRECTORY));
   if (!file) fail(folder, "cannot be opened", errno);
   take(file.get(), folder);
   return OutputLock(std::unique_ptr<Held>(
-      new Held{std::move(file), {}, nullptr, was_there ? std::string() : folder}));
+      new Held{std::move(file), {}, std::move(unfinished), was_there ? std::string() : folder}));
 }
 
 OutputLock OutputLock::of_file(const std::string& file) {

@@ -56,8 +56,10 @@ void remove_unfinished() noexcept {
     const timespec millisecond{0, 1'000'000};
     ::nanosleep(&millisecond, nullptr);
   }
-  for (const Slot& slot : slots)
-    if (slot.state == kMaking || slot.state == kMade) ::unlink(slot.path.data());
+  // Files first: a folder goes when nothing is in it.
+  for (const auto remove : {::unlink, ::rmdir})
+    for (const Slot& slot : slots)
+      if (slot.state == kMaking || slot.state == kMade) remove(slot.path.data());
 }
 
 }  // namespace mimicry::files
