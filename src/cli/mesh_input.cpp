@@ -12,6 +12,7 @@
 #include <mimicry/files/file.h>
 #include <mimicry/io/mesh_reader.h>
 #include <mimicry/io/number.h>
+#include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "cli/commands.h"
@@ -47,6 +48,7 @@ io::MeshReadOptions read_options(const std::string& path, const std::string& nam
     return files::read_beside(path, beside);
   };
   options.note = [name](const std::string& sentence) { complain(name + ": " + sentence); };
+  options.raises_unfolded = "MIMICRY_MAX_UNFOLDED in the environment";
   if (const char* text = std::getenv("MIMICRY_MAX_UNFOLDED")) {
     const auto limit = io::parse_double(text);
     if (!limit || !(*limit >= 0.0 && *limit < 1e15))
@@ -55,6 +57,18 @@ io::MeshReadOptions read_options(const std::string& path, const std::string& nam
     options.max_unfolded = static_cast<std::size_t>(*limit);
   }
   return options;
+}
+
+// The surface of a bake is taken as it is. Of one that was made with --no-join it is said what an
+// unjoined mesh is told of.
+TriangleMesh load_baked_surface(const std::string& spec, const std::string& name) {
+  TriangleMesh mesh = mesh_of(load_embedding(spec));
+  const TriangleMesh by_number({mesh.positions().begin(), mesh.positions().end()},
+                               {mesh.faces().begin(), mesh.faces().end()});
+  ConnectReport open;
+  open.seam_edges = connect(by_number).report.joined_edges;
+  for (const std::string& sentence : open.sentences()) complain(name + ": " + sentence);
+  return mesh;
 }
 
 }  // namespace
@@ -74,7 +88,7 @@ NamedMesh load_mesh(const std::string& spec) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);
   const std::string name = std::filesystem::path(spec).filename().string();
   TriangleMesh mesh = is_embedding_file(spec)
-                          ? mesh_of(load_embedding(spec))
+                          ? load_baked_surface(spec, name)
                           : io::read_mesh(files::read_file(spec), io::mesh_format_of(spec), name,
                                           read_options(spec, name));
   const double size = diagonal(mesh);

@@ -19,13 +19,18 @@ double GltfBuffers::allowance() const {
                   kUnfoldedPerByte * static_cast<double>(read_bytes_));
 }
 
+std::string GltfBuffers::raised_with() const {
+  if (options_.raises_unfolded.empty()) return "";
+  return ", or raise the limit (" + options_.raises_unfolded + ")";
+}
+
 void GltfBuffers::spend(std::size_t work, const std::string& place) {
   spent_ += static_cast<double>(work);
   if (spent_ > allowance())
-    gltf_.fail(place,
-               "is one of too many parts that read the same bytes; export the file again, or raise "
-               "the limit (MeshReadOptions::max_unfolded)",
-               ErrorKind::unsupported);
+    gltf_.fail(
+        place,
+        "is one of too many parts that read the same bytes; export the file again" + raised_with(),
+        ErrorKind::unsupported);
 }
 
 const std::string& GltfBuffers::keep(std::string bytes) {

@@ -36,6 +36,8 @@ class GltfBuffers {
   std::size_t read_bytes() const { return read_bytes_; }
   /// What a file of that size may unfold to (MeshReadOptions::max_unfolded).
   double allowance() const;
+  /// The end of a sentence that says what raises it; empty where its reader cannot.
+  std::string raised_with() const;
   /// Counts work that a file can ask for again and again with a few bytes. Throws
   /// Error(unsupported) where it is more than the allowance.
   void spend(std::size_t work, const std::string& place);

@@ -19,8 +19,6 @@ namespace mimicry::io {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-constexpr const char* kMaxUnfolded =
-    "MeshReadOptions::max_unfolded; of the command line MIMICRY_MAX_UNFOLDED in the environment";
 
 /// A mesh at a place.
 struct Use {
@@ -160,25 +158,25 @@ class GltfReader {
   void check_limits(const Amounts& total) const {
     const MeshReadOptions& options = mesh_.options();
     const double unfolded = buffers_.allowance();
-    const auto check = [&](double asked, double limit, const char* what, const char* name,
-                           const std::string& of) {
+    const auto check = [&](double asked, double limit, const char* what, const std::string& of,
+                           const std::string& raised_with) {
       if (asked <= limit) return;
       gltf_.fail("",
                  "unfolds to " + whole_text(asked) + " " + what + ", more than the " +
-                     whole_text(limit) + of +
-                     "; export it with fewer instances, or raise the limit (" + name + ")",
+                     whole_text(limit) + of + "; export it with fewer instances" + raised_with,
                  ErrorKind::unsupported);
     };
     const double numbered = std::numeric_limits<Index>::max();
     const std::string small =
         " that a file of " + std::to_string(buffers_.read_bytes()) + " bytes may";
-    check(total.triangles, unfolded, "triangles", kMaxUnfolded, small);
-    check(total.vertices, unfolded, "vertices", kMaxUnfolded, small);
-    check(total.steps, unfolded, "readings of vertices", kMaxUnfolded, small);
+    const std::string raised = buffers_.raised_with();
+    check(total.triangles, unfolded, "triangles", small, raised);
+    check(total.vertices, unfolded, "vertices", small, raised);
+    check(total.steps, unfolded, "readings of vertices", small, raised);
     check(total.triangles, std::min(numbered / 3, static_cast<double>(options.max_faces)),
-          "triangles", "MeshReadOptions::max_faces", " that are read");
+          "triangles", " that are read", "");
     check(total.vertices, std::min(numbered, static_cast<double>(options.max_vertices)), "vertices",
-          "MeshReadOptions::max_vertices", " that are read");
+          " that are read", "");
   }
 
   void place(const Use& use) {

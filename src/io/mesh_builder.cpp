@@ -15,8 +15,7 @@ namespace mimicry::io {
 
 void MeshBuilder::fail_limit(const char* what, std::size_t limit) const {
   throw Error(ErrorKind::unsupported, std::string(name_) + ": more than " + std::to_string(limit) +
-                                          " " + what +
-                                          "; simplify the mesh or raise the reader's limits");
+                                          " " + what + "; simplify the mesh");
 }
 
 void MeshBuilder::reserve(std::size_t vertices, std::size_t faces) {

@@ -350,6 +350,19 @@ class Embeddings(unittest.TestCase):
         self.assertIn("earlier", self.run_cli("bake", SHAPE, "-o", self.path("a"), "--samples",
                                               "90").stdout)
 
+    def test_a_bake_with_seams_says_so_where_it_is_the_mesh(self):
+        corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        soup = self.write("soup.obj", "".join("v %d %d %d\n" % corners[c] for f in faces for c in f) +
+                          "".join(f"f {3 * f + 1} {3 * f + 2} {3 * f + 3}\n" for f in range(4)))
+        for options, said in (["--no-join"], True), ([], False):
+            baked = self.path("soup.mimicry")
+            self.run_cli("bake", soup, "-o", baked, "--samples", "10", "--offset", "0.4", *options)
+            for command in (["info", baked], ["render", baked, "--width", "16", "--height", "16", "-o",
+                                              self.path("p.png")]):
+                told = self.run_cli(*command).stderr
+                self.assertEqual("soup.mimicry: 6 seam edges are not joined" in told, said, told)
+
     def wait_until_caught(self, process, number):
         """Before the program has begun, a signal ends it in the system's own way."""
         for _ in range(600):

@@ -20,6 +20,8 @@ struct MeshReadOptions {
   /// byte of what was read where that is more. A file whose triangles are all its own has fewer
   /// than that; ten million of both take 360 MB.
   std::size_t max_unfolded = 10'000'000;
+  /// What the one who reads the messages can raise `max_unfolded` with; empty: nothing.
+  std::string raises_unfolded = {};
   /// Is told, a sentence each, what was passed over or mended; may be empty.
   std::function<void(const std::string& sentence)> note = {};
   /// The content of a file that the mesh names beside it (the buffers of a glTF), by its decoded
