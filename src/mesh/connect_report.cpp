@@ -67,8 +67,9 @@ std::vector<std::string> ConnectReport::sentences() const {
                    " (first: face " + std::to_string(doubled_faces.first) + " on " +
                    std::to_string(doubled_faces.first_copy_of) + ")");
   if (turned_faces.count > 0)
-    list.push_back(counted(turned_faces.count, "face was turned to the side of its neighbours",
-                           "faces were turned to the side of their neighbours") +
+    list.push_back(counted(turned_faces.count,
+                           "face was turned to the side of its neighbours or outward",
+                           "faces were turned to the side of their neighbours or outward") +
                    first_face(turned_faces.first));
   if (one_sided_edges.count > 0)
     list.push_back(counted(one_sided_edges.count,

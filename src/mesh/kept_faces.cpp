@@ -1,6 +1,7 @@
 #include "mesh/kept_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <tuple>
@@ -20,6 +21,7 @@ class Keeper {
     faces_.left_out.assign(at(mesh.face_count()), false);
     faces_.turned.assign(at(mesh.face_count()), false);
     faces_.part.assign(at(mesh.face_count()), kNone);
+    has_back_.assign(at(mesh.face_count()), false);
   }
 
   KeptFaces run() {
@@ -37,6 +39,7 @@ class Keeper {
       any = turn_faces(PlaceEdges(mesh_, place_, faces_.left_out));
       any |= leave_out_doubles();
     }
+    turn_two_sided_parts();
     for (Index f = 0; f < mesh_.face_count(); ++f)
       if (faces_.turned[at(f)]) note(report_.turned_faces, f);
   }
@@ -146,7 +149,60 @@ class Keeper {
       found.first = f;
       found.first_copy_of = copy_of[at(f)];
     }
+    note_backs(copy_of);
     return any;
+  }
+
+  // All faces of the polygon with this one, its first.
+  template <class Visit>
+  void each_face_of_polygon(Index first, Visit&& visit) const {
+    for (Index f = first; f < mesh_.face_count() && mesh_.polygon(f) == mesh_.polygon(first); ++f)
+      visit(f);
+  }
+
+  // Of which polygons the file has both sides.
+  void note_backs(const std::vector<Index>& copy_of) {
+    const auto area = [&](Index first) {
+      Vec3 sum = Vec3::Zero();
+      each_face_of_polygon(first, [&](Index f) { sum += mesh_.area_vector(f); });
+      return sum;
+    };
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      if (copy_of[at(f)] == kNone || !faces_.left_out[at(f)]) continue;
+      if (f > 0 && mesh_.polygon(f - 1) == mesh_.polygon(f)) continue;
+      if (area(f).dot(area(copy_of[at(f)])) > 0.0) continue;
+      each_face_of_polygon(copy_of[at(f)], [&](Index g) { has_back_[at(g)] = true; });
+    }
+  }
+
+  // Which side of a closed part comes first in the file says nothing where it has both of all
+  // faces: the part is turned to enclose a positive volume.
+  void turn_two_sided_parts() {
+    if (std::find(has_back_.begin(), has_back_.end(), true) == has_back_.end()) return;
+    struct Part {
+      bool is_two_sided = true, is_closed = true;
+      double volume = 0.0, sum = 0.0;  // six times; of absolute values
+    };
+    std::vector<Part> all(at(mesh_.face_count()));
+    const auto part = [&](Index f) -> Part& { return all[at(faces_.part[at(f)])]; };
+    const PlaceEdges edges(mesh_, place_, faces_.left_out);
+    for (std::size_t e = 0; e < edges.count(); ++e)
+      if (!is_balanced(edges, edges.edge(e)))
+        for (const Index h : edges.edge(e)) part(h / 3).is_closed = false;
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      if (faces_.left_out[at(f)]) continue;
+      Part& p = part(f);
+      p.is_two_sided = p.is_two_sided && has_back_[at(f)];
+      const double volume = volume_below(f, faces_.part[at(f)]);
+      p.volume += volume;
+      p.sum += std::abs(volume);
+    }
+    constexpr double kRounding = 1e-12;
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const Part& p = part(f);
+      if (faces_.left_out[at(f)] || !p.is_two_sided || !p.is_closed) continue;
+      if (p.volume < -kRounding * p.sum) faces_.turned[at(f)] = !faces_.turned[at(f)];
+    }
   }
 
   // Six times the volume of a tetrahedron, seen from the first corner of a part's first face.
@@ -219,6 +275,7 @@ class Keeper {
   const TriangleMesh& mesh_;
   const std::vector<Index>& place_;
   KeptFaces faces_;
+  std::vector<bool> has_back_;  // #F, where a double of the other side is left out
   ConnectReport& report_;
 };
 

@@ -300,6 +300,37 @@ TEST(Connect, DoublesAreLeftOut) {
   }
 }
 
+TEST(Connect, AClosedPartOfWhichTheFileHasBothSidesIsTurnedOutward) {
+  // Each face from inside first, and one of all of them not from both.
+  for (const TriangleMesh& mesh : {make_sphere(6), make_torus(12, 8)})
+    for (const bool own_vertices : {false, true})
+      for (const bool all : {true, false}) {
+        std::vector<Face> faces;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+          faces.push_back(other_side(mesh.face(f)));
+          if (all || f != 3) faces.push_back(mesh.face(f));
+        }
+        const TriangleMesh doubled =
+            own_vertices ? soup_of(with_faces(mesh, faces)) : with_faces(mesh, faces);
+        const Connected made = connect(doubled);
+        expect_surface(doubled, made);
+        const MeshReport report = validate(made.mesh);
+        EXPECT_TRUE(report.is_closed());
+        EXPECT_EQ(report.volume.value_or(0.0) > 0.0, all);
+        EXPECT_EQ(made.report.turned_faces.count, all ? mesh.face_count() : 0);
+      }
+  // What is not closed encloses nothing.
+  const TriangleMesh grid = make_grid(3);
+  std::vector<Face> faces;
+  for (const Face& f : grid.faces()) {
+    faces.push_back(other_side(f));
+    faces.push_back(f);
+  }
+  const Connected made = connect(with_faces(grid, faces));
+  EXPECT_EQ(made.report.turned_faces.count, 0);
+  EXPECT_EQ(made.mesh.face(0), faces[0]);
+}
+
 TEST(Connect, DoubledPolygonsAreLeftOutHoweverTheyAreCut) {
   // A square from both sides; the fan of the reversed list has the other diagonal.
   const TriangleMesh quad({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},

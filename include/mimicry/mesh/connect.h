@@ -21,7 +21,7 @@ struct ConnectReport {
   VertexFinding unused_vertices;   ///< that no face names, left out
   FaceFinding repeated_corners;    ///< faces with two corners at one place, left out
   DuplicateFinding doubled_faces;  ///< faces where another lies, either way round, left out
-  FaceFinding turned_faces;        ///< turned to the side of the faces around them
+  FaceFinding turned_faces;        ///< turned to the side of the faces around them, or outward
   VertexFinding joined_vertices;   ///< that were joined to one of a lower number
   EdgeFinding joined_edges;        ///< edges between faces that did not share both vertices
   VertexFinding split_vertices;    ///< where fans of faces met in a point: one vertex for each
@@ -56,9 +56,9 @@ struct Connected {
 ///   does (same corners, either side), are left out: they keep their number, with all corners at
 ///   one vertex. Doubles that wall off a part from another (two closed boxes that touch) stay.
 /// - Faces that run against their neighbours are turned: to the side that encloses a positive
-/// volume
-///   where the part is closed, else to that of most faces; in a one-sided part where it mends more
-///   edges than it leaves.
+///   volume where the part is closed, else to that of most faces; in a one-sided part where it
+///   mends more edges than it leaves. A closed part whose faces all come from both sides encloses a
+///   positive volume, too.
 /// - Half-edges that share both vertices and run against each other are neighbours. The rest is
 ///   paired by position: vertices at equal positions (bit by bit, -0 taken for 0) are joined where
 ///   that closes boundary edges in pairs, and never so that an edge gets a third face.
