@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     complain(error.what());
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
-    complain("out of memory");
+    complain("out of memory; give more, fewer --threads, or a smaller model");
     return kBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
     complain(std::string(error.what()) + "; check the path, the rights and the room left");
