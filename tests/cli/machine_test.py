@@ -41,35 +41,6 @@ class Threads(Folder):
             run(*render, self.path("few.png"), env=environment)
             self.assertEqual(self.read("few.png"), self.read("whole.png"))
 
-    @unittest.skipIf(b"__asan_init" in open(PROGRAM, "rb").read(),
-                     "address space is not limited with the address sanitizer")
-    def test_where_memory_and_not_threads_run_out(self):
-        """Each thread takes addresses for its stack: there is an end in any case, and a sentence."""
-        run("simulate", "shape:torus:24", "--rate", "20", "--out", self.path("s.json"))
-        bake = ("bake", "shape:sphere:2", "--samples", "40", "--no-cache", "--threads", "64", "--out")
-        run(*bake, self.path("whole.mimicry"))
-        codes = set()
-        for mb in (48, 64, 80, 96, 128, 192, 256, 512, 1024):
-            def limit(most=mb << 20):
-                resource.setrlimit(resource.RLIMIT_AS, (most, most))
-
-            for command in ((*bake, self.path("few.mimicry")),
-                            ("replay", "--strokes", self.path("s.json"), "--mesh", "shape:torus:24",
-                             "-t", "spraycan", "--threads", "64", "--out", self.path(f"few{mb}")),
-                            ("render", "shape:torus:24", "--width", "60", "--height", "50", "--out",
-                             self.path("few.png"))):
-                done = run(*command, expect=None, preexec_fn=limit)
-                where = (mb, command[0], done.returncode, done.stderr)
-                if "error while loading shared libraries" in done.stderr:
-                    continue
-                codes.add(done.returncode)
-                self.assertIn(done.returncode, (0, 3, 4), where)
-                self.assertEqual("mimicry: " in done.stderr, done.returncode != 0, where)
-            if os.path.exists(self.path("few.mimicry")):
-                self.assertEqual(self.read("few.mimicry"), self.read("whole.mimicry"))
-        self.assertIn(0, codes)
-        self.assertIn(3, codes)
-
     def test_number_of_threads_is_bounded(self):
         for command in (("bake", "shape:torus:24", "--out", self.path("a")),
                         ("replay", "--strokes", "x", "-t", "snap", "--out", self.path("a"))):
