@@ -18,7 +18,6 @@
 #include <mimicry/mesh/connect.h>
 #include <mimicry/phong/tangent_bases.h>
 
-#include "bake/budget.h"
 #include "bake/normal_wishes.h"
 #include "bake/unit_mesh.h"
 
@@ -106,8 +105,8 @@ class LsMeshStage {
   static constexpr int kMost = 1000;
   // Vertices times iterations that all solves of a bake may take together, about a microsecond
   // each: several times what sound meshes take.
-  static constexpr double kWork = kWorkBudget * 16e6;
-  static constexpr double kWorkOfFace = kWorkBudget * 800.0;
+  static constexpr double kWork = 16e6;
+  static constexpr double kWorkOfFace = 800.0;
 
   template <class Element>
   LsMeshResult solve(LsMeshInput input, std::span<const Element> elements,

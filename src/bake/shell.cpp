@@ -8,7 +8,6 @@
 #include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
 
-#include "bake/budget.h"
 #include "bake/octree.h"
 #include "bake/recovery.h"
 #include "bake/sheets.h"
@@ -64,14 +63,14 @@ void keep_near(Shell& shell, const Delaunay& delaunay, const std::vector<double>
 // the shell is half as thick.
 double most_vertices(const TriangleMesh& mesh, double offset) {
   const double thin = std::max(1.0, 0.05 / offset);
-  return (kBudget * 40000.0 + 3.0 * mesh.face_count()) * thin * thin;
+  return (40000.0 + 3.0 * mesh.face_count()) * thin * thin;
 }
 
 // Where sheets are close, tetrahedra between them come once for each: more than these, at some 0.6
 // kB each, are made again of fewer nodes.
 double most_tets(const TriangleMesh& mesh, double offset) {
   const double thin = std::max(1.0, 0.05 / offset);
-  return (kBudget * 400000.0 + 15.0 * mesh.face_count()) * thin * thin;
+  return (400000.0 + 15.0 * mesh.face_count()) * thin * thin;
 }
 
 // Far more than what the usual offset takes; memory would end at some ten times as many.
@@ -201,8 +200,7 @@ Shell shell_of(const TriangleMesh& mesh, const ShellOptions& options, double mos
   report(progress, "shell", 0.7);
 
   Recovery recovery(surface, delaunay, shell.positions, distances, half_side, executor);
-  const std::size_t most =
-      grid.size() + static_cast<std::size_t>(kBudget * 10000.0) + 2 * at(mesh.face_count());
+  const std::size_t most = grid.size() + 10000 + 2 * at(mesh.face_count());
   for (shell.rounds = 0; recovery.round(); ++shell.rounds) {
     report(progress, "shell", 0.7 + 0.3 * shell.rounds / options.most_rounds);
     if (shell.rounds == options.most_rounds || shell.positions.size() > most) {
@@ -247,7 +245,7 @@ Shell make_lattice_shell(const TriangleMesh& mesh, const ShellOptions& options, 
   grading.offset = options.offset;
   grading.smallest = grading.largest = options.offset / 4.0;
   const double thin = std::max(1.0, 0.05 / options.offset);
-  grading.most_cells = static_cast<std::size_t>(kBudget * 40000.0 * thin * thin);
+  grading.most_cells = static_cast<std::size_t>(40000.0 * thin * thin);
   std::optional<Octree> found = make_octree(surface, sizes, grading, half_side, executor);
   while (!found) {
     if (grading.smallest >= options.offset) throw too_many_cells(mesh, options.offset);
