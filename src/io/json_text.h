@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,13 +40,13 @@ class JsonText {
   template <std::integral Number>
   JsonText& value(Number number) {
     char digits[24];
-    return put({digits, std::to_chars(digits, digits + sizeof digits, number).ptr});
+    return put(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
   }
   /// null where it is not finite.
   JsonText& value(double number) {
     if (!std::isfinite(number)) return put("null");
     char digits[64];
-    return put({digits, nlohmann::detail::to_chars(digits, digits + sizeof digits, number)});
+    return put(digits, nlohmann::detail::to_chars(digits, digits + sizeof digits, number));
   }
   /// U+FFFD stands for what is not UTF-8.
   JsonText& value(std::string_view text) {
@@ -82,6 +83,10 @@ class JsonText {
     text_ += piece;
     follows_ = true;
     return *this;
+  }
+
+  JsonText& put(const char* from, const char* to) {
+    return put(std::string_view(from, static_cast<std::size_t>(to - from)));
   }
 
   std::string text_;
