@@ -8,20 +8,20 @@
 #include <Eigen/QR>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/bake/ls_mesh.h>
-#include <mimicry/bake/mds.h>
-#include <mimicry/bake/quality.h>
-#include <mimicry/bake/samples.h>
-#include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/fast_marching.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/phong/tangent_bases.h>
 
+#include "bake/ls_mesh.h"
+#include "bake/mds.h"
 #include "bake/normal_wishes.h"
+#include "bake/quality.h"
+#include "bake/samples.h"
+#include "bake/shell.h"
 #include "bake/unit_mesh.h"
+#include "geodesic/fast_marching.h"
+#include "phong/tangent_bases.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 void check(const BakeOptions& options) {
@@ -95,7 +95,7 @@ class LsMeshStage {
   Values run(BakeQuality& quality) {
     if (shell_.is_lattice) return lattice(quality);
     Values values = tied(quality);
-    if (values.cols() <= phong::kDimension) turn_normals(values, quality);
+    if (values.cols() <= kDimension) turn_normals(values, quality);
     return values;
   }
 
@@ -271,7 +271,7 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   out.dimension = options.dimension;
   out.mesh_vertex_count = mesh.vertex_count();
   out.faces.assign(mesh.faces().begin(), mesh.faces().end());
-  out.mesh_hash = embedding::content_hash(mesh);
+  out.mesh_hash = content_hash(mesh);
   out.diagonal = unit.diagonal;
   out.options = options;
   BakeQuality& quality = out.quality;
@@ -289,7 +289,7 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   std::vector<Index> samples;
   Values sample_values;
   {
-    const geodesic::FastMarching march(unit.mesh);
+    const FastMarching march(unit.mesh);
     report(progress, "samples", 0.0);
     samples = farthest_points(unit.mesh, march, options.samples, progress);
     const Eigen::MatrixXd distances =
@@ -335,9 +335,9 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   out.tets.reserve(shell.tets.size());
   for (const Tet& t : shell.tets)
     out.tets.push_back({renumber(t[0]), renumber(t[1]), renumber(t[2]), renumber(t[3])});
-  embedding::sort_for_search(out);
+  sort_for_search(out);
   report(progress, "done", 1.0);
   return out;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

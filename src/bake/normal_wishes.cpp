@@ -8,11 +8,11 @@
 
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/normals.h>
-#include <mimicry/phong/phong_surface.h>
 
 #include "bake/flat_tets.h"
+#include "phong/phong_surface.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // The strength of a wish, over the square root of a tetrahedron's size: derivatives are then
@@ -86,11 +86,11 @@ class OnSurface {
 
 NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const Values& values) {
   const Eigen::Index dimension = values.cols();
-  assert(!shell.is_lattice && dimension <= phong::kDimension);
+  assert(!shell.is_lattice && dimension <= kDimension);
   const Values of_mesh = values.topRows(mesh.vertex_count());
-  const phong::PhongSurface surface(mesh, HalfEdges(mesh),
-                                    {of_mesh.data(), static_cast<std::size_t>(of_mesh.size())},
-                                    static_cast<int>(dimension));
+  const PhongSurface surface(mesh, HalfEdges(mesh),
+                             {of_mesh.data(), static_cast<std::size_t>(of_mesh.size())},
+                             static_cast<int>(dimension));
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
   const OnSurface on_surface(mesh, shell);
 
@@ -111,7 +111,7 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
       if (!area) area = area_vectors(shell.positions, t);
       const double volume6 = (*area)[3].dot(position(3) - position(0));
       SoftConstraint wish;
-      phong::Vec8 along = phong::Vec8::Zero();  // the derivative along the normal
+      Vec8 along = Vec8::Zero();  // the derivative along the normal
       for (std::size_t j = 0; j < 4; ++j) {
         const double weight = (*area)[j].dot(normal) / volume6;
         wish.vertices[j] = t[j];
@@ -119,9 +119,9 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
         along.head(dimension) += weight * values.row(t[j]).transpose();
       }
       // Rows of an interpolated basis are not quite orthonormal.
-      const phong::Basis basis = surface.tangent_plane(*middle);
-      const phong::Vec8 first = basis.row(0).normalized();
-      phong::Vec8 second = basis.row(1);
+      const Basis basis = surface.tangent_plane(*middle);
+      const Vec8 first = basis.row(0).normalized();
+      Vec8 second = basis.row(1);
       second -= first.dot(second) * first;
       second.normalize();
       along -= first.dot(along) * first + second.dot(along) * second;
@@ -136,4 +136,4 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
   return result;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

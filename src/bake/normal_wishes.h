@@ -2,11 +2,12 @@
 
 #include <vector>
 
-#include <mimicry/bake/ls_mesh.h>
-#include <mimicry/bake/shell.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::bake {
+#include "bake/ls_mesh.h"
+#include "bake/shell.h"
+
+namespace mimicry {
 
 /// What makes the values turn their normal direction with the surface.
 struct NormalWishes {
@@ -22,4 +23,4 @@ struct NormalWishes {
 /// of 1; not a lattice. values: #V of the shell by 3 to 8. O(#T).
 NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const Values& values);
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

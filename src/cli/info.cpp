@@ -4,12 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/validation.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
 
 namespace mimicry::cli {
 namespace {
@@ -19,7 +20,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   std::string mesh;
   bool json = false;
-  spatial::TargetOptions target;
+  TargetOptions target;
 };
 
 Json array_of(const Vec3& v) {
@@ -168,13 +169,13 @@ void print_report(const std::string& name, const MeshReport& r, const MeshReport
 }
 
 void run_info(const InfoArguments& args, int& status) {
-  const NamedMesh named = load_mesh(args.mesh);
+  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
   const Connected connected = connect(named.mesh, {.join = args.target.join});
   const MeshReport surface = validate(connected.mesh);
   const MeshReport report = report_as_drawn(named.mesh, surface);
   std::string refusal;
   try {
-    (void)make_target_silently(named, args.target);
+    (void)assets::make_target(named, args.target);
   } catch (const Error& error) {
     refusal = error.what();
     status = kBadInput;

@@ -18,6 +18,7 @@
 
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
 
 namespace mimicry::cli {
 namespace {

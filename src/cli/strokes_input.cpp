@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <utility>
 
-#include <mimicry/files/file.h>
 #include <mimicry/io/strokes.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "files/file.h"
 
 namespace mimicry::cli {
 
@@ -16,9 +16,9 @@ void tell_left_out(const std::string& what, int& status) {
   status = kPartly;
 }
 
-std::vector<stroke::Stroke> load_strokes(const std::string& path, int& status) {
+std::vector<Stroke> load_strokes(const std::string& path, int& status) {
   const std::string name = std::filesystem::path(path).filename().string();
-  io::StrokesFile file = io::read_strokes(files::read_file(path), name);
+  StrokesFile file = read_strokes(read_file(path), name);
   for (const std::string& what : file.left_out) tell_left_out(what, status);
   return std::move(file.strokes);
 }

@@ -2,7 +2,7 @@
 
 #include <mimicry/geodesic/local_path.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 // Relative differences below this are rounding.
 static constexpr double kSameLength = 1e-12;
@@ -276,4 +276,4 @@ void PathSearch::append_crossings(std::vector<Crossing>& crossings) {
   std::reverse(crossings.begin() + static_cast<std::ptrdiff_t>(first), crossings.end());
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

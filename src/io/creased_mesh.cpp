@@ -7,7 +7,7 @@
 
 #include <mimicry/mesh/normals.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 /// Sums of the same faces in another order differ by less.
@@ -115,4 +115,4 @@ CreasedMesh creased_mesh(const TriangleMesh& mesh, double crease_rad) {
   return Creaser(mesh, crease_rad).run();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// One node of a GLB scene: a mesh or lines.
 struct GlbPart {
@@ -24,4 +24,4 @@ struct GlbPart {
 /// `write_mesh` does.
 std::string write_glb_scene(std::span<const GlbPart> parts);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,7 +7,7 @@
 #include "io/json.h"
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr int kFloat = 5126;
@@ -173,4 +173,4 @@ std::string write_glb(const TriangleMesh& mesh) {
   return write_glb_scene({&part, 1});
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,7 +7,7 @@
 #include "io/binary.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::size_t component_size(int type) {
@@ -161,4 +161,4 @@ double GltfAccessor::at(std::size_t element, std::size_t k) const {
   return load_component(p + component_size(component_type_) * k, component_type_, normalized_);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 #include "io/gltf_buffers.h"
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Component types of accessors.
 constexpr int kGltfByte = 5120;
@@ -62,4 +62,4 @@ class GltfAccessor {
 /// What messages call the accessor.
 std::string accessor_place(std::size_t index);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

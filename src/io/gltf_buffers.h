@@ -12,7 +12,7 @@
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The bytes that accessors lie in. A buffer is looked at when something needs it, once: what no
 /// triangle needs may be missing, empty or broken.
@@ -59,4 +59,4 @@ class GltfBuffers {
   std::map<std::size_t, std::string_view> decompressed_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 #include "io/binary.h"
 #include "io/gltf_accessor.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void fail_without_draco(const GltfJson& gltf, const std::string& place) {
   gltf.fail(place,
@@ -144,4 +144,4 @@ DracoMesh decode_draco(const GltfJson& gltf, std::string_view, const std::vector
 
 #endif
 
-}  // namespace mimicry::io
+}  // namespace mimicry

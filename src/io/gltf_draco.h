@@ -7,7 +7,7 @@
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 // KHR_draco_mesh_compression, by Google's draco where that was found when mimicry was built.
 
@@ -36,4 +36,4 @@ struct DracoMesh {
 DracoMesh decode_draco(const GltfJson& gltf, std::string_view bytes,
                        const std::vector<std::size_t>& ids, const std::string& place);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kTriangles = 4;
@@ -201,4 +201,4 @@ void GltfMesh::decode(const Compressed& compressed) {
   primitive.indices.emplace(mesh.corners, primitive.corners, 1, kGltfUnsignedInt, false);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 #include "io/gltf_accessor.h"
 #include "io/gltf_draco.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Vertices as the file has them, before node, skin and morph weights. Primitives of a mesh that
 /// name the same accessors share them.
@@ -87,4 +87,4 @@ class GltfMesh {
   std::vector<std::unique_ptr<const DracoMesh>> decoded_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -15,7 +15,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
@@ -279,4 +279,4 @@ void read_gltf(std::string_view bytes, MeshBuilder& mesh) {
   GltfReader(mesh, gltf, chunks.binary, bytes.size()).read();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

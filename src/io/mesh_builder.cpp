@@ -11,7 +11,7 @@
 
 #include "io/polygon.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void MeshBuilder::fail_limit(const char* what, std::size_t limit) const {
   throw Error(ErrorKind::unsupported, std::string(name_) + ": more than " + std::to_string(limit) +
@@ -144,4 +144,4 @@ TriangleMesh MeshBuilder::finish() {
                       std::exchange(polygons_, {}));
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

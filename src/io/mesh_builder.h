@@ -8,7 +8,7 @@
 #include <mimicry/io/mesh_reader.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Collects what a reader finds: holds the limits and cuts polygons into triangles.
 class MeshBuilder {
@@ -73,4 +73,4 @@ void read_off(std::string_view bytes, MeshBuilder& mesh);
 /// GLB or glTF, whichever the bytes are.
 void read_gltf(std::string_view bytes, MeshBuilder& mesh);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,13 +1,13 @@
 #include <cmath>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/float_traps.h>
 #include <mimicry/io/mesh_writer.h>
-#include <mimicry/io/number.h>
 
+#include "base/float_traps.h"
 #include "io/mesh_writers.h"
+#include "io/number.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void append_triple(std::string& out, const Vec3& x) {
   append_double(out, x[0]);
@@ -57,4 +57,4 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
   throw Error(ErrorKind::unsupported, "mesh: glTF text is not written; write GLB");
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 // One writer per format, each in its own source file.
 std::string write_obj(const TriangleMesh& mesh);
@@ -21,4 +21,4 @@ void append_triple(std::string& out, const Face& face, Index first_number = 0);
 Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format,
                           const Vec3& origin = Vec3::Zero());
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 class ObjReader {
@@ -171,4 +171,4 @@ void read_obj(std::string_view bytes, MeshBuilder& mesh) {
   reader.finish();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

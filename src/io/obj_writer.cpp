@@ -1,6 +1,6 @@
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::string write_obj(const TriangleMesh& mesh) {
   std::string out;
@@ -17,4 +17,4 @@ std::string write_obj(const TriangleMesh& mesh) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

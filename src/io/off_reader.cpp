@@ -7,7 +7,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 /// Where vertices and faces end. Files are written as lines are: a vertex or a face each, with a
@@ -248,4 +248,4 @@ void read_off(std::string_view bytes, MeshBuilder& mesh) {
   OffReader(bytes, mesh).read();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

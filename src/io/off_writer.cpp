@@ -1,6 +1,6 @@
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::string write_off(const TriangleMesh& mesh) {
   std::string out = "OFF\n" + std::to_string(mesh.vertex_count()) + " " +
@@ -17,4 +17,4 @@ std::string write_off(const TriangleMesh& mesh) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -377,4 +377,4 @@ void read_ply(std::string_view bytes, MeshBuilder& mesh) {
   }
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,7 +1,7 @@
 #include "io/binary.h"
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::string write_ply(const TriangleMesh& mesh, bool text) {
   std::string out = std::string("ply\nformat ") + (text ? "ascii" : "binary_little_endian") +
@@ -30,4 +30,4 @@ std::string write_ply(const TriangleMesh& mesh, bool text) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

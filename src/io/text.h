@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include <mimicry/io/number.h>
+#include "io/number.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Throws Error(invalid_input, "name: line 12: what").
 [[noreturn]] void fail_at_line(std::string_view name, std::size_t line, const std::string& what);
@@ -86,4 +86,4 @@ class Words {
   std::size_t line_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

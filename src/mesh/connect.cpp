@@ -5,9 +5,9 @@
 #include <tuple>
 #include <utility>
 
-#include <mimicry/base/float_traps.h>
 #include <mimicry/mesh/connect.h>
 
+#include "base/float_traps.h"
 #include "mesh/fans.h"
 #include "mesh/findings.h"
 #include "mesh/kept_faces.h"

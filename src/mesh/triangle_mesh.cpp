@@ -5,8 +5,9 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 #include <mimicry/mesh/triangle_mesh.h>
+
+#include "base/finite.h"
 
 namespace mimicry {
 

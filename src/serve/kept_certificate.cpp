@@ -6,7 +6,8 @@
 #include <sys/stat.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
+
+#include "files/file.h"
 
 namespace mimicry::serve {
 namespace {
@@ -39,7 +40,7 @@ Certificate kept_certificate(const std::string& data_folder,
   // A headset that has accepted it is not asked again.
   if (fs::exists(kept, trouble)) {
     try {
-      Certificate known = read_certificate(files::read_file(kept.string()), kept.string());
+      Certificate known = read_certificate(read_file(kept.string()), kept.string());
       if (serves(known, addresses)) {
         fs::permissions(kept, fs::perms::owner_read | fs::perms::owner_write, trouble);
         return known;
@@ -48,7 +49,7 @@ Certificate kept_certificate(const std::string& data_folder,
     }
   }
   Certificate made = make_certificate(addresses);
-  files::write_file_atomically(kept.string(), write_certificate(made));
+  write_file_atomically(kept.string(), write_certificate(made));
   return made;
 }
 

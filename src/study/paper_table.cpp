@@ -2,7 +2,7 @@
 
 #include <mimicry/study/paper_table.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 bool is_near(double ours, double paper) {
@@ -63,4 +63,4 @@ Agreement agreement(const Comparison& ours, const PaperFigure& paper) {
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -6,14 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/bake/quality.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "bake/quality.h"
 #include "messy/messy_meshes.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 double volume(const Embedding& e, const std::array<Index, 4>& t) {
@@ -361,4 +361,4 @@ TEST(Quality, SliverPercentOfKnownTetrahedra) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -14,7 +14,7 @@ os.environ["MIMICRY_CACHE"] = CACHE.name
 
 
 def run(*args, expect=0):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 
@@ -87,7 +87,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("MIMICRY_MAX_UNFOLDED", said)
         for limit, answer in (("20000001", "unfolds to 60000000 vertices, more than the 20000001"),
                               ("many", "'many' is not a number of triangles")):
-            done = subprocess.run([PROGRAM, "info", small], capture_output=True, text=True, timeout=120,
+            done = subprocess.run([PROGRAM, "info", small], capture_output=True, text=True, timeout=1800,
                                   env={**os.environ, "MIMICRY_MAX_UNFOLDED": limit})
             self.assertEqual(done.returncode, 3)
             self.assertIn(answer, done.stderr)

@@ -12,7 +12,7 @@
 #include "io/gltf_builder.h"
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -255,4 +255,4 @@ TEST(GltfMeshopt, IsNamedWhereItIsMissing) {
 #endif
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -9,7 +9,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/io/mesh_reader.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -314,4 +314,4 @@ TEST(GltfExtensions, UnknownOnesThatCouldChangeItAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

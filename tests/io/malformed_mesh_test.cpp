@@ -9,7 +9,7 @@
 
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST(MalformedMesh, DeeplyNestedJsonIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

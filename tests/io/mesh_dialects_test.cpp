@@ -12,15 +12,15 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
 #include <mimicry/io/mesh_reader.h>
 #include <mimicry/io/mesh_writer.h>
 #include <mimicry/io/points.h>
 #include <mimicry/io/targets_reader.h>
 
+#include "io/csv.h"
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -434,4 +434,4 @@ TEST(RecordedCases, AreReadAsOtherReadersDo) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -12,7 +12,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/io/mesh_reader.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -272,4 +272,4 @@ TEST(MeshReader, NanAndInfinityAreReadForTheValidationToReport) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

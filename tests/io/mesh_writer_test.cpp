@@ -16,7 +16,7 @@
 
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAreArray;
@@ -181,4 +181,4 @@ TEST(MeshWriter, TinygltfReadsGlbTheSame) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,3 +1,5 @@
+#include "mesh/visible_normals.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -6,7 +8,6 @@
 #include <mimicry/base/random.h>
 #include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/mesh/visible_normals.h>
 
 namespace mimicry {
 namespace {

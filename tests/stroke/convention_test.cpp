@@ -6,7 +6,7 @@
 
 #include <mimicry/stroke/convention.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 namespace {
 
 // acos resolves angles near 0 to the square root of rounding only: compare with 1e-7.
@@ -89,4 +89,4 @@ TEST(CoordinateConvention, UnknownNameIsNull) {
 }
 
 }  // namespace
-}  // namespace mimicry::stroke
+}  // namespace mimicry

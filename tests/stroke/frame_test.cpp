@@ -7,7 +7,7 @@
 #include <mimicry/stroke/frame.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -73,4 +73,4 @@ TEST(Stroke, PlacementThatIsNoSimilarityIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicry::stroke
+}  // namespace mimicry

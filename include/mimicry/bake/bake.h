@@ -4,11 +4,7 @@
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::bake {
-
-using embedding::BakeOptions;
-using embedding::BakeQuality;
-using embedding::Embedding;
+namespace mimicry {
 
 /// Raised whenever the same mesh and options give another embedding than before: kept bakes of an
 /// earlier revision are made again.
@@ -36,4 +32,4 @@ inline constexpr int kRevision = 4;
 Embedding bake(const TriangleMesh& mesh, const BakeOptions& options = {}, int threads = 1,
                const ProgressCallback& progress = {});
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -13,7 +13,9 @@ namespace mimicry {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;
+/// Not aligned beyond its numbers: its size and place in a structure are the same whatever
+/// instructions the compiler may use.
+using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 /// Number of a vertex, face, half-edge or frame, 0-based; kNone where there is none.
 using Index = std::int32_t;

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include <mimicry/curve/refine.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+namespace mimicry {
 
 enum class NodeUse : std::uint8_t {
   end,       ///< of a part: nothing turns here
@@ -37,7 +38,6 @@ struct CurveCurvature {
 /// of total angle theta; `normalised` multiplies the last by 2 pi / theta (Polthier and Schmies
 /// 1998, definition 6). At a boundary vertex only the turning angle is known. O(nodes + faces
 /// around the vertices passed).
-CurveCurvature curvature(const RefinedCurve& curve, const TriangleMesh& mesh,
-                         const HalfEdges& half_edges);
+CurveCurvature curvature(const RefinedCurve& curve, const Surface& surface);
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 #include <mimicry/mesh/surface_point.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::curve {
+namespace mimicry {
 
 /// A point that a technique inked. All in the target's coordinates and units.
 struct CurvePoint {
@@ -61,4 +61,4 @@ std::vector<std::vector<Vec3>> polylines(const ProjectedCurve& curve, const Tria
 /// vertex_normals: #V by 3, unit.
 void follow(ProjectedCurve& curve, const TriangleMesh& mesh, std::span<const Vec3> vertex_normals);
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+namespace mimicry {
 
 /// A barycentric coordinate below this puts a point of a refined curve on the edge or vertex.
 inline constexpr double kSnap = 1e-7;
@@ -34,7 +34,6 @@ struct RefinedCurve {
 /// an edge that the piece starts or ends on is that end: near an edge a rounding would otherwise
 /// count as a turn. Gaps and chords part the curve, and so do pieces that are not connected over
 /// the mesh (crossings of another mesh). half_edges belong to mesh. O(points + crossings).
-RefinedCurve refine(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                    const HalfEdges& half_edges);
+RefinedCurve refine(const ProjectedCurve& curve, const Surface& surface);
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include <mimicry/geodesic/local_path.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 struct BezierCurve {
   /// False where no path joins two neighbouring control points; there are no points then.
@@ -22,8 +23,7 @@ struct BezierCurve {
 /// the parameter grows, so does the curve: keep the control points close against the size of
 /// handles and bumps. Throws Error(invalid_input) for no control point, points off the mesh or a
 /// count below 2. O(count * controls^2) paths.
-BezierCurve bezier(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                   std::span<const SurfacePoint> controls, std::size_t count,
-                   const LocalPathOptions& options = {});
+BezierCurve bezier(const Surface& surface, std::span<const SurfacePoint> controls,
+                   std::size_t count, const LocalPathOptions& options = {});
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

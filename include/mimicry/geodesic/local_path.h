@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <mimicry/mesh/crossing.h>
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 enum class PathLabel : std::uint8_t {
   same_face,         ///< both points lie in one face: straight, no crossings
@@ -38,10 +37,10 @@ struct LocalPath {
 /// Crane 2020 on the faces crossed).
 /// Boundary and non-manifold edges are not crossed, and a vertex where several fans touch is not
 /// passed from one fan into another. Holds scratch of #V, and of #F once a search has given up;
-/// other calls do not allocate. Refers to mesh and half_edges, which must outlive it.
+/// other calls do not allocate.
 class LocalPathFinder {
  public:
-  LocalPathFinder(const TriangleMesh& mesh, const HalfEdges& half_edges);
+  explicit LocalPathFinder(const Surface& surface);
   ~LocalPathFinder();
   LocalPathFinder(LocalPathFinder&&) noexcept;
   LocalPathFinder& operator=(LocalPathFinder&&) noexcept;
@@ -56,4 +55,4 @@ class LocalPathFinder {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

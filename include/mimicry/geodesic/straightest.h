@@ -5,10 +5,9 @@
 #include <vector>
 
 #include <mimicry/mesh/crossing.h>
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 enum class TraceStop : std::uint8_t {
   complete,      ///< the whole length was walked: `length` is what was asked for
@@ -34,9 +33,8 @@ struct Trace {
 /// twin stop it, and so do faces without size in which it goes round, and 100,000 crossings and 300
 /// for each face. Throws Error(invalid_input) for a point off the mesh and a direction or length
 /// that is not finite or negative. O(faces crossed).
-Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                        const SurfacePoint& from, const Vec3& direction, double length,
-                        std::vector<Crossing>* crossings = nullptr);
+Trace trace_straightest(const Surface& surface, const SurfacePoint& from, const Vec3& direction,
+                        double length, std::vector<Crossing>* crossings = nullptr);
 
 /// Carries a tangent vector along a path on the surface: turned with the faces over edges; at a
 /// vertex its angle to the path stays, angles there measured in parts of the vertex's total angle
@@ -45,8 +43,8 @@ Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
 /// non-manifold vertices it goes along the fan between the two faces. The path must be connected
 /// (`Crossing`s as all path functions of this module give them). O(crossings + faces around the
 /// vertices passed).
-Vec3 parallel_transport(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                        const SurfacePoint& from, std::span<const Crossing> crossings,
-                        const SurfacePoint& to, const Vec3& vector);
+Vec3 parallel_transport(const Surface& surface, const SurfacePoint& from,
+                        std::span<const Crossing> crossings, const SurfacePoint& to,
+                        const Vec3& vector);
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The version of `mimicry-curves` that is written and read (docs/formats.md).
 inline constexpr int kCurvesVersion = 1;
@@ -21,7 +21,7 @@ struct CurveRecord {
   std::string technique;                               ///< the technique's name
   std::map<std::string, std::vector<double>> options;  ///< the technique's, by name
   Similarity model_to_world;
-  curve::ProjectedCurve curve;
+  ProjectedCurve curve;
   /// Of its tube in GLB and PLY files, model units: one for each point, > 0; or empty. Other files
   /// do not keep it.
   std::vector<double> radii = {};
@@ -29,7 +29,7 @@ struct CurveRecord {
   double lift = 0.0;
 };
 
-/// The radii along `curve::polylines`, crossings included: linear in arc length between points.
+/// The radii along `polylines`, crossings included: linear in arc length between points.
 /// Throws Error(invalid_input) where there is not one for each point.
 std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
                                                 const TriangleMesh& mesh);
@@ -72,4 +72,4 @@ std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh,
 /// One row a point, crossings included (columns in docs/formats.md), part and row in drawing order.
 std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

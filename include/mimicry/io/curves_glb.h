@@ -5,7 +5,7 @@
 
 #include <mimicry/io/curves.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A GLB scene: the target, and each curve as a round tube of its colour (one node a curve, named
 /// stroke and technique; parts between gaps are separate tubes). Model units. The target has
@@ -20,4 +20,4 @@ std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
 std::string write_curves_glb_lines(const CurveSet& set, const TriangleMesh& mesh,
                                    std::span<const std::array<unsigned char, 3>> colors);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

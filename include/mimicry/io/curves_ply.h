@@ -5,7 +5,7 @@
 
 #include <mimicry/io/curves.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Binary PLY with the tubes of all curves, `vertex` (x, y, z, nx, ny, nz, red, green, blue, curve)
 /// and `face` (vertex_indices) elements. colors: one per curve, 0 to 255. radius: > 0, model
@@ -19,4 +19,4 @@ std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
 std::string write_curves_ply_lines(const CurveSet& set, const TriangleMesh& mesh,
                                    std::span<const std::array<unsigned char, 3>> colors);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 
 #include <mimicry/io/mesh_reader.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A file that is held in memory. The name may begin with folders, "model/cube.gltf".
 struct NamedBytes {
@@ -23,4 +23,4 @@ std::size_t mesh_among(std::span<const NamedBytes> files, std::string_view name)
 TriangleMesh read_mesh_files(std::span<const NamedBytes> files, std::size_t mesh,
                              const MeshReadOptions& options = {});
 
-}  // namespace mimicry::io
+}  // namespace mimicry

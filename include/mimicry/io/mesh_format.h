@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace mimicry::io {
+namespace mimicry {
 
 enum class MeshFormat { obj, ply, stl, off, glb, gltf };
 
@@ -12,4 +12,4 @@ MeshFormat mesh_format_of(std::string_view file_name);
 /// Whether it ends in one of those.
 bool is_mesh_name(std::string_view file_name);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -9,7 +9,7 @@
 #include <mimicry/io/mesh_format.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// What a reader may take, and whom it asks and tells.
 struct MeshReadOptions {
@@ -59,4 +59,4 @@ struct MeshReadOptions {
 TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
                        const MeshReadOptions& options = {});
 
-}  // namespace mimicry::io
+}  // namespace mimicry

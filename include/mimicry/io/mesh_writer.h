@@ -5,7 +5,7 @@
 #include <mimicry/io/mesh_format.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 struct MeshWriteOptions {
   bool text = false;  ///< PLY and STL as text instead of binary; the other formats have one form
@@ -19,4 +19,4 @@ struct MeshWriteOptions {
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options = {});
 
-}  // namespace mimicry::io
+}  // namespace mimicry

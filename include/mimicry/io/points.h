@@ -9,7 +9,7 @@
 
 #include <mimicry/embedding/smooth_projector.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 struct PointRows {
   std::vector<Vec3> points;
@@ -23,8 +23,8 @@ struct PointRows {
 PointRows read_points_csv(std::string_view bytes, std::string_view name);
 
 /// `face,b0,b1,b2,x,y,z,label` and a row for each point, in order. Labels: smooth, outside-shell,
-/// no-phong-solution, replaced (`embedding::ScpLabel`), and not-finite for a point that has none:
+/// no-phong-solution, replaced (`ScpLabel`), and not-finite for a point that has none:
 /// its face is -1 and its numbers are nan.
-std::string write_smooth_points_csv(std::span<const std::optional<embedding::SmoothPoint>> points);
+std::string write_smooth_points_csv(std::span<const std::optional<SmoothPoint>> points);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

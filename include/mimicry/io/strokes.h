@@ -8,7 +8,7 @@
 #include <mimicry/stroke/convention.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The version of `mimicry-strokes` that is written and read (docs/formats.md).
 inline constexpr int kStrokesVersion = 1;
@@ -17,14 +17,14 @@ inline constexpr int kStrokesVersion = 1;
 /// convention and checked; only one stroke is held at a time. `name` stands for the file in
 /// messages. Throws Error naming file, stroke and frame: JSON that is cut off or malformed (with
 /// the byte), another format, a version that is unknown (unsupported), a field that is missing or
-/// of the wrong kind, a frame that cannot be used (`stroke::frame_problem`). Strokes before the
+/// of the wrong kind, a frame that cannot be used (`frame_problem`). Strokes before the
 /// fault have been handed over by then. `first`: the number of the first stroke, for messages.
 void read_strokes(std::string_view bytes, std::string_view name,
-                  const std::function<void(stroke::Stroke&&)>& visit, std::size_t first = 0);
+                  const std::function<void(Stroke&&)>& visit, std::size_t first = 0);
 
 /// A file's sound strokes, and what was left out of it.
 struct StrokesFile {
-  std::vector<stroke::Stroke> strokes;
+  std::vector<Stroke> strokes;
   std::vector<std::size_t> numbers;   ///< of each of these in the file, from 0
   std::vector<std::string> left_out;  ///< a sentence each: file, stroke, frame, fault and remedy
 };
@@ -40,20 +40,18 @@ StrokesFile read_strokes(std::string_view bytes, std::string_view name);
 class StrokeWriter {
  public:
   using Sink = std::function<void(std::string_view)>;
-  explicit StrokeWriter(
-      Sink sink, const stroke::CoordinateConvention& convention = stroke::conventions().front());
+  explicit StrokeWriter(Sink sink, const CoordinateConvention& convention = conventions().front());
   /// Throws where the stroke is not usable; nothing of it is written then.
-  void write(const stroke::Stroke& stroke);
+  void write(const Stroke& stroke);
   void finish();
 
  private:
   Sink sink_;
-  const stroke::CoordinateConvention* convention_;
+  const CoordinateConvention* convention_;
   bool first_ = true;
 };
 
-std::string write_strokes(
-    std::span<const stroke::Stroke> strokes,
-    const stroke::CoordinateConvention& convention = stroke::conventions().front());
+std::string write_strokes(std::span<const Stroke> strokes,
+                          const CoordinateConvention& convention = conventions().front());
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -8,26 +8,26 @@
 #include <mimicry/study/protocol.h>
 #include <mimicry/study/recording.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Reads a file `<method>_<shape>.json` of the published study (docs/formats.md): its strokes in
 /// the order drawn. A stroke that cannot be read comes with `problem` (the piece, the frame and the
 /// field), and the others all the same. NaN, Infinity and null in place of a number are NaN. `name`
 /// stands for the file in messages. Throws Error(invalid_input) where the text is not JSON (with
 /// the byte) or not an array of strokes.
-std::vector<study::RecordedStroke> read_recording(std::string_view bytes, std::string_view name);
+std::vector<RecordedStroke> read_recording(std::string_view bytes, std::string_view name);
 
 /// The same file; reads back to the same bits. P is written as the frames' points. A number that is
 /// not finite is written as null.
-std::string write_recording(std::span<const study::RecordedStroke> strokes);
+std::string write_recording(std::span<const RecordedStroke> strokes);
 
 /// Reads `study_sequence.json`. StrokeSequence may be one list for all, a list for each shape, or a
 /// list of these for each method, nested or one after the other in a flat list; each with the
-/// repeats or without (`study::with_repeats`); the three may also be parallel lists with an entry
+/// repeats or without (`with_repeats`); the three may also be parallel lists with an entry
 /// for each stroke. Throws Error(invalid_input) saying what does not fit.
-study::StudySequence read_study_sequence(std::string_view bytes, std::string_view name);
+StudySequence read_study_sequence(std::string_view bytes, std::string_view name);
 
 /// StrokeSequence is written as a list of lists, repeats included.
-std::string write_study_sequence(const study::StudySequence& sequence);
+std::string write_study_sequence(const StudySequence& sequence);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

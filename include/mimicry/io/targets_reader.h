@@ -4,7 +4,7 @@
 
 #include <mimicry/study/target_set.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Reads a set of target curves (JSON): {"note": text, "shapes": [{"name", "scale", "curves":
 /// [{"face": [#P], "bary": [#P by 3], and optionally "keypoints": [...], "parameters":
@@ -14,7 +14,7 @@ namespace mimicry::io {
 /// curve and point: malformed or truncated JSON (with the byte), a member that is missing or of
 /// another kind, arrays of different lengths, a scale that is not positive, barycentrics off by
 /// more, key points that do not increase or lie beyond the points. Whether the faces exist only a
-/// mesh can tell: `study::require_fits`.
-study::TargetSet read_targets(std::string_view bytes, std::string_view name);
+/// mesh can tell: `require_fits`.
+TargetSet read_targets(std::string_view bytes, std::string_view name);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

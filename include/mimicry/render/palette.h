@@ -1,21 +1,17 @@
 #pragma once
 
-#include <span>
+#include <cstdint>
 #include <string_view>
 
 #include <mimicry/render/image.h>
 
 namespace mimicry::render {
 
-struct PaletteEntry {
-  std::string_view name;
-  Color color;
-};
-
-/// One fixed colour per technique, told apart also with red-green blindness.
-std::span<const PaletteEntry> technique_colors();
-/// The technique's colour; a middle grey for a name that is not in the palette.
+/// The technique's colour (`TechniqueInfo`); a middle grey for a name that is none.
+/// Those of the built-in techniques are told apart also with red-green blindness.
 Color technique_color(std::string_view technique);
+/// rgb: 0xrrggbb.
+Color color_of(std::uint32_t rgb);
 
 inline constexpr Color kStrokeColor{0.06, 0.06, 0.06};
 inline constexpr Color kInkColor{0.13, 0.13, 0.14};  // captions and legends

@@ -7,7 +7,7 @@
 #include <mimicry/base/types.h>
 #include <mimicry/stroke/frame.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 
 /// How another program writes positions and poses. Inside, everything is right-handed, y up,
 /// metres, with devices that point along -z and have +y up; frames are converted when they come in
@@ -45,4 +45,4 @@ std::span<const CoordinateConvention> conventions();
 /// nullptr for a name that is not in the list.
 const CoordinateConvention* find_convention(std::string_view name);
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

@@ -6,7 +6,7 @@
 #include <mimicry/base/similarity.h>
 #include <mimicry/base/types.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 
 /// Where a device is and how it is turned: x_world = orientation * x_device + position. Devices
 /// point along their -z axis and have +y up (OpenXR, WebXR).
@@ -46,4 +46,4 @@ std::optional<std::string> frame_problem(const Frame& frame, double previous_tim
 /// `frame_problem` is empty; allocates nothing.
 bool is_usable(const Frame& frame, double previous_time_s = -kInfinity);
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

@@ -9,7 +9,7 @@
 #include <mimicry/mesh/surface_point.h>
 #include <mimicry/stroke/frame.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 
 /// The curve that the drawer of a stroke meant, where it is known (synthetic strokes, study tasks).
 struct Intention {
@@ -40,4 +40,4 @@ struct Stroke {
 /// scale > 0). A stroke without frames is legal. O(frames).
 void require_usable(const Stroke& stroke);
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

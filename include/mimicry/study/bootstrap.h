@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-namespace mimicry::study {
+namespace mimicry {
 
 enum class BootstrapKind {
   percentile,
@@ -41,4 +41,4 @@ double standard_deviation(std::span<const double> values);
 /// The middle value, or the mean of the two; NaN for no values. O(n log n).
 double median(std::span<const double> values);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

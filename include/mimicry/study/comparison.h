@@ -8,7 +8,7 @@
 #include <mimicry/study/bootstrap.h>
 #include <mimicry/study/wilcoxon.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// One measure of the same tasks done two ways: a[i] and b[i] belong together.
 struct PairedMeasure {
@@ -48,4 +48,4 @@ struct ComparisonOptions {
 std::vector<Comparison> compare(std::span<const PairedMeasure> measures,
                                 const ComparisonOptions& options = {});
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// How much a measure changes when a task is repeated.
 struct Consistency {
@@ -18,4 +18,4 @@ struct Consistency {
 /// (paper, section 6: applied to D_ep and F_g).
 Consistency consistency(std::span<const double> first, std::span<const double> repeat);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -6,7 +6,7 @@
 #include <mimicry/spatial/target.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// Three or more curves that a person might mean to draw on a built-in shape: "closed", "winding",
 /// and "across" (over sharp edges; on smooth shapes through the region of highest curvature). They
@@ -15,7 +15,6 @@ namespace mimicry::study {
 /// its faces). Points about 0.5 % of the diagonal apart, in the order of drawing; a closed curve
 /// ends in its first point. Throws Error(invalid_input) for an unknown shape, and for "noisy-cube"
 /// where the target has not the faces of one. About 5 ms a curve.
-std::vector<stroke::Intention> intended_curves(std::string_view shape,
-                                               const spatial::Target& target);
+std::vector<Intention> intended_curves(std::string_view shape, const Target& target);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -3,10 +3,9 @@
 #include <span>
 #include <vector>
 
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 struct KeypointOptions {
   double window = 0.05;         ///< that curvature is averaged over, a part of the curve's length
@@ -23,8 +22,7 @@ struct KeypointOptions {
 /// divided evenly. The points are joined by shortest paths. Empty for no points, one keypoint for a
 /// single one. Throws Error(invalid_input) where the curve leaves the mesh, metres_per_unit is not
 /// > 0, or an option is out of range. O(points) paths; about 2 ms for 500 points.
-std::vector<Index> keypoints(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                             std::span<const SurfacePoint> points, double metres_per_unit,
-                             const KeypointOptions& options = {});
+std::vector<Index> keypoints(const Surface& surface, std::span<const SurfacePoint> points,
+                             double metres_per_unit, const KeypointOptions& options = {});
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/mesh/half_edges.h>
+#include <mimicry/mesh/surface.h>
 #include <mimicry/study/motion.h>
 #include <mimicry/study/target_set.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// A target curve X as a shape was shown, ready to be compared with. Display coordinates (model
 /// coordinates times metres per unit).
@@ -81,13 +81,11 @@ struct MeasureOptions {
 /// points' `frame` counts in `motion` (kNone: no part in the jumps). motion: display coordinates.
 /// Throws Error(invalid_input) for a curve without points, motion without frames, and a time that
 /// is not finite or runs backwards. About 1 ms for 400 frames.
-Measures measure(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                 const IntendedCurve& intended, const curve::ProjectedCurve& curve,
+Measures measure(const Surface& surface, const IntendedCurve& intended, const ProjectedCurve& curve,
                  std::span<const MotionSample> motion, const MeasureOptions& options = {});
 
 /// The curve with its gaps closed by shortest paths (chords where the surface does not join the
 /// points).
-curve::ProjectedCurve joined(const curve::ProjectedCurve& curve, const TriangleMesh& mesh,
-                             const HalfEdges& half_edges);
+ProjectedCurve joined(const ProjectedCurve& curve, const Surface& surface);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

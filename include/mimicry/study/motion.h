@@ -5,7 +5,7 @@
 
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// A frame as the measures see it. Positions are *display coordinates*: the model's own, times the
 /// metres per unit at which it was shown; so are the directions, which are unit vectors.
@@ -19,8 +19,8 @@ struct MotionSample {
   Vec3 pen_up = Vec3::UnitY();
 };
 
-/// All frames of a stroke. The stroke is usable (`stroke::require_usable`).
-std::vector<MotionSample> motion_of(const stroke::Stroke& stroke);
+/// All frames of a stroke. The stroke is usable (`require_usable`).
+std::vector<MotionSample> motion_of(const Stroke& stroke);
 
 /// Width of the Gaussian that motion is filtered with, and where it is cut off.
 inline constexpr double kMotionSigma_s = 0.020;
@@ -46,4 +46,4 @@ struct MotionLengths {
 /// and R_c are those of the filtered motion by L_X (paper, section 6).
 MotionLengths motion_lengths(std::span<const MotionSample> motion);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -6,7 +6,7 @@
 #include <mimicry/study/comparison.h>
 #include <mimicry/study/protocol.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// A measure under one task in the paper's table (section 6.4): spraycan first, as it prints it.
 struct PaperFigure {
@@ -51,4 +51,4 @@ struct Agreement {
 /// `ours` compares spraycan (a) with mimicry (b). Without pairs nothing agrees.
 Agreement agreement(const Comparison& ours, const PaperFigure& paper);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -4,22 +4,17 @@
 #include <span>
 #include <vector>
 
+#include <mimicry/stroke/steering.h>
 #include <mimicry/study/protocol.h>
 #include <mimicry/study/simulate.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// A positive number that differs from person to person or from stroke to stroke: its logarithm is
 /// normal.
 struct Spread {
   double median;
   double log_deviation;
-};
-
-/// What a technique makes of the controller, and so how people steer with it.
-enum class Steering {
-  aims,   ///< the point is where the nozzle points: people turn the wrist
-  moves,  ///< the hand's place or motion counts
 };
 
 /// How people differ, and how they steer. "Study": seen in the paper's study; "physiology": ranges
@@ -84,18 +79,16 @@ StudySequence study_sequence(std::span<const Index> methods, std::span<const Ind
 
 /// What a person who recalls a curve by its keypoints means: the curve, moved sideways on the
 /// surface between keypoints by `recalled_error` of their distance (root mean square), not at them.
-stroke::Intention recalled(const spatial::Target& target, const stroke::Intention& curve,
-                           std::span<const Index> keypoints, double recalled_error,
-                           std::uint64_t seed);
+Intention recalled(const Target& target, const Intention& curve, std::span<const Index> keypoints,
+                   double recalled_error, std::uint64_t seed);
 
 /// A person draws: the stroke of `trial_number` in the participant's whole study. The ink is seen
 /// in either task: traced strokes are corrected toward the curve, re-created ones toward what is
 /// recalled of it. keypoints: numbers of the curve's points; empty: its ends. The stroke's
 /// intention is the curve itself. Errors and cost as `simulate_closed_loop`.
-stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention& curve,
-                          std::span<const Index> keypoints, TaskKind task,
-                          const Similarity& model_to_world, const PopulationOptions& options,
-                          const Participant& person, Steering steering, std::uint64_t trial_number,
-                          const InkFunction& ink);
+Stroke draw_trial(const Target& target, const Intention& curve, std::span<const Index> keypoints,
+                  TaskKind task, const Similarity& model_to_world, const PopulationOptions& options,
+                  const Participant& person, Steering steering, std::uint64_t trial_number,
+                  const InkFunction& ink);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 
 #include <mimicry/base/types.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// The study's shapes by their numbers. The first is a tutorial and no part of the analysis.
 inline constexpr std::array<std::string_view, 6> kStudyShapes = {"torus", "cube", "trebol",
@@ -20,6 +20,8 @@ enum StudyMethod : Index { kSpraycan = 0, kMimicry = 1 };
 
 /// The word that recordings name a method with: "Spray", "AnchorPhong"; empty for other numbers.
 std::string_view method_word(Index method);
+/// The study's method that is this technique; kNone where none is.
+Index method_of_technique(std::string_view technique);
 /// kNone for another word.
 Index method_number(std::string_view word);
 
@@ -56,4 +58,4 @@ struct StudySequence {
 /// unchanged; all different and an even number (10): repeats are added; else empty.
 std::vector<Index> with_repeats(std::span<const Index> curves);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 #include <mimicry/stroke/stroke.h>
 #include <mimicry/study/motion.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// A frame as the published study recorded it. All positions, lengths and directions are in the
 /// model's own coordinates. Only frames that inked a point were recorded.
@@ -39,7 +39,7 @@ struct RecordedPiece {
 
 struct RecordedStroke {
   std::vector<RecordedPiece> pieces;
-  std::optional<stroke::Simulation> simulated;  ///< Simulated; what the first piece says
+  std::optional<Simulation> simulated;  ///< Simulated; what the first piece says
   /// Why the file's stroke could not be read; empty where it could.
   std::string problem;
 };
@@ -58,17 +58,17 @@ Similarity placement_of(const RecordedStroke& stroke);
 /// All frames, pieces joined; display coordinates. A number that is not finite is refused.
 std::vector<MotionSample> motion_of(const RecordedStroke& stroke);
 /// The stroke in the world. The trigger is 1; forward is made orthogonal to up.
-stroke::Stroke stroke_of(const RecordedStroke& stroke);
+Stroke stroke_of(const RecordedStroke& stroke);
 /// The curve as recorded: the points at their faces and barycentrics, joined by shortest paths
 /// within the pieces, with gaps between them; `frame` counts over all pieces. Refuses faces that
 /// the mesh has not and points farther than a twentieth of the diagonal from where the mesh has
 /// them: it is another mesh.
-curve::ProjectedCurve curve_of(const RecordedStroke& stroke, const spatial::Target& target);
+ProjectedCurve curve_of(const RecordedStroke& stroke, const Target& target);
 
 /// A stroke and what a technique drew from it, as the study would have recorded it: the frames that
 /// inked, a piece for each part between gaps. `stroke_of` and `curve_of` give it back to rounding.
 /// method: the word M. nozzle: the spray direction in the controller's own axes.
-RecordedStroke record(const stroke::Stroke& stroke, const curve::ProjectedCurve& curve,
-                      std::string method, const Vec3& nozzle = -Vec3::UnitZ());
+RecordedStroke record(const Stroke& stroke, const ProjectedCurve& curve, std::string method,
+                      const Vec3& nozzle = -Vec3::UnitZ());
 
-}  // namespace mimicry::study
+}  // namespace mimicry

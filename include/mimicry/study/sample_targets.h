@@ -10,7 +10,7 @@
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/study/target_set.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// Target curves <n, i_0, k_G, k_N> (paper, appendix B). The ranges are the paper's; i_0 is drawn
 /// from all vertices, k_G and k_N evenly from their ranges.
@@ -29,8 +29,8 @@ struct TargetSampling {
 /// earlier ones: d_G the exact geodesic distance in diagonals, d_N the angle between vertex
 /// normals; of equals the lowest number. Fewer than `count` where no vertex is left. count searches
 /// from one vertex to all.
-std::vector<Index> control_points(const spatial::Target& target, Index first, Index count,
-                                  double k_g, double k_n_rad);
+std::vector<Index> control_points(const Target& target, Index first, Index count, double k_g,
+                                  double k_n_rad);
 
 /// Attempts by what became of them.
 struct SamplingCounts {
@@ -48,11 +48,11 @@ struct SampledTargets {
 /// `count` target curves: cubic B-splines on the surface (`clamped_b_spline_curve`) that start and
 /// end in their first and last control. Refused and drawn anew are splines with a step on the
 /// surface longer than a twentieth of their length or none at all, and curves that meet themselves
-/// (`curve::self_crossing`). metres_per_unit is for the keypoints. Throws Error(invalid_input) for
+/// (`self_crossing`). metres_per_unit is for the keypoints. Throws Error(invalid_input) for
 /// options out of range and where most_attempts do not give a curve, Error(cancelled). Equal
 /// arguments give equal curves.
-SampledTargets sample_targets(const embedding::SmoothProjector& projector, double metres_per_unit,
+SampledTargets sample_targets(const SmoothProjector& projector, double metres_per_unit,
                               std::size_t count, const TargetSampling& options, Random random,
                               const ProgressCallback& progress = {});
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 #include <mimicry/spatial/target.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// The curve in the air that the hand follows.
 enum class HandCopy {
@@ -73,7 +73,7 @@ struct SimulationOptions {
 
 /// Where a technique inks for this frame (world), nothing on a miss. Called once for each frame, in
 /// order.
-using InkFunction = std::function<std::optional<Vec3>(const stroke::Frame& world)>;
+using InkFunction = std::function<std::optional<Vec3>(const Frame& world)>;
 
 /// A mid-air stroke as a person would draw it who means the curve `intended` on a target that
 /// stands at model_to_world (y up, metres): the hand follows a smoothed copy of the curve at a
@@ -86,17 +86,14 @@ using InkFunction = std::function<std::optional<Vec3>(const stroke::Frame& world
 /// Throws Error(invalid_input) where the curve has fewer than two points, no length or faces that
 /// the target has not, where an option is out of range, or where the target's scale is not > 0.
 /// About 10 ms.
-stroke::Stroke simulate(const spatial::Target& target, const stroke::Intention& intended,
-                        const Similarity& model_to_world, const SimulationOptions& options,
-                        std::uint64_t seed);
+Stroke simulate(const Target& target, const Intention& intended, const Similarity& model_to_world,
+                const SimulationOptions& options, std::uint64_t seed);
 
 /// The same in closed loop: the person sees the ink and removes the visible error (intended point
 /// minus ink) with feedback_delay_s and feedback_gain_per_s. The mean distance is that of the
 /// stroke without feedback.
-stroke::Stroke simulate_closed_loop(const spatial::Target& target,
-                                    const stroke::Intention& intended,
-                                    const Similarity& model_to_world,
-                                    const SimulationOptions& options, std::uint64_t seed,
-                                    const InkFunction& ink);
+Stroke simulate_closed_loop(const Target& target, const Intention& intended,
+                            const Similarity& model_to_world, const SimulationOptions& options,
+                            std::uint64_t seed, const InkFunction& ink);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

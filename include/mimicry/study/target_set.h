@@ -7,7 +7,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// What a target curve was sampled with (paper, appendix B).
 struct TargetParameters {
@@ -45,4 +45,4 @@ struct TargetSet {
 /// is another one, or its faces stand in another order. O(vertices and points).
 void require_fits(const TargetShape& shape, const TriangleMesh& mesh);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

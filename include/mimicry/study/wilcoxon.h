@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// What becomes of pairs without a difference.
 enum class ZeroDifferences {
@@ -44,4 +44,4 @@ struct WilcoxonResult {
 WilcoxonResult wilcoxon_signed_rank(std::span<const double> a, std::span<const double> b,
                                     const WilcoxonOptions& options = {});
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,0 +1,49 @@
+#include <filesystem>
+#include <utility>
+
+#include <mimicry/assets/bake_cache.h>
+#include <mimicry/assets/bakes.h>
+#include <mimicry/bake/bake.h>
+#include <mimicry/base/error.h>
+#include <mimicry/io/embedding_file.h>
+
+#include "files/file.h"
+
+namespace mimicry::assets {
+
+Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings, const Monitor& monitor,
+                const ProgressCallback& stages) {
+  const BakeCache cache = settings.use_cache ? BakeCache::of_user() : BakeCache();
+  if (auto kept = cache.find(mesh, settings.options)) return {std::move(*kept), true};
+  Baked baked;
+  baked.embedding = mimicry::bake(
+      mesh, settings.options, thread_count(settings.threads), [&](const Progress& now) {
+        monitor.report("baking", static_cast<std::size_t>(100 * now.fraction), 100);
+        return !stages || stages(now);
+      });
+  try {
+    cache.keep(baked.embedding);
+  } catch (const Error& error) {
+    monitor.tell("the bake is not kept for the next time: " + std::string(error.what()));
+  }
+  return baked;
+}
+
+Embedding load_embedding(const std::string& file) {
+  return read_embedding(MappedFile(file).bytes(), std::filesystem::path(file).filename().string());
+}
+
+bool is_embedding_file(const std::string& spec) {
+  return std::filesystem::path(spec).extension() == ".mimicry";
+}
+
+LoadedProjector::LoadedProjector(Embedding embedding, const std::string& name) {
+  try {
+    target_ = std::make_unique<Target>(mesh_of(embedding));
+    projector_ = std::make_unique<SmoothProjector>(std::move(embedding), *target_);
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + ": " + error.what());
+  }
+}
+
+}  // namespace mimicry::assets

@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <mimicry/assets/canvas.h>
+#include <mimicry/base/error.h>
+
+namespace mimicry::assets {
+
+std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
+  bool all = names.empty();
+  std::set<const TechniqueInfo*> named;
+  for (const std::string& name : names)
+    if (name == "all")
+      all = true;
+    else
+      named.insert(&find_technique(name));
+  std::vector<const TechniqueInfo*> chosen;
+  for (const TechniqueInfo& info : techniques())
+    if (all || named.contains(&info)) chosen.push_back(&info);
+  return chosen;
+}
+
+PreparedCanvas::PreparedCanvas(const Target& target,
+                               std::span<const TechniqueInfo* const> techniques,
+                               const Monitor& monitor, const std::string& embedding_file,
+                               const BakeSettings& settings) {
+  canvas_.target = target;
+  if (std::none_of(techniques.begin(), techniques.end(),
+                   [](const auto* info) { return info->needs_bake; }))
+    return;
+  canvas_.projector = projector_of(target, embedding_file, settings, monitor);
+}
+
+SmoothProjector PreparedCanvas::projector_of(const Target& target,
+                                             const std::string& embedding_file,
+                                             const BakeSettings& settings, const Monitor& monitor) {
+  if (embedding_file.empty())
+    return {bake_mesh(target.mesh(), settings, monitor).embedding, target};
+  Embedding embedding = load_embedding(embedding_file);
+  try {
+    return {std::move(embedding), target};
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                std::filesystem::path(embedding_file).filename().string() + ": " + error.what());
+  }
+}
+
+}  // namespace mimicry::assets

@@ -1,0 +1,24 @@
+#include <filesystem>
+
+#include <mimicry/assets/target_curves.h>
+#include <mimicry/base/error.h>
+#include <mimicry/io/targets_reader.h>
+
+#include "files/file.h"
+
+namespace mimicry::assets {
+
+TargetSet load_targets(const std::string& path) {
+  return read_targets(read_file(path), std::filesystem::path(path).filename().string());
+}
+
+const TargetShape& find_target_shape(const TargetSet& set, const std::string& name,
+                                     const std::string& file) {
+  if (const TargetShape* shape = set.find(name)) return *shape;
+  std::string names;
+  for (const auto& s : set.shapes) names += (names.empty() ? "" : ", ") + s.name;
+  throw Error(ErrorKind::invalid_input,
+              file + ": has no shape '" + name + "', only " + names + "; name one with --shape");
+}
+
+}  // namespace mimicry::assets

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mimicry/lab/pairing.h>
+
+#include "lab/json.h"
+
+namespace mimicry::lab {
+
+/// What `comparison_json` writes.
+Json compared_json(const std::string& a, const std::string& b,
+                   const std::vector<PairedGroup>& groups,
+                   const std::vector<std::vector<Comparison>>& comparisons);
+
+}  // namespace mimicry::lab
