@@ -42,7 +42,7 @@ class JsonText {
     char digits[24];
     return put(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
   }
-  /// null where it is not finite.
+  /// null where it is not finite; 1.0 and not 1, as files have had it.
   JsonText& value(double number) {
     if (!std::isfinite(number)) return put("null");
     char digits[64];
