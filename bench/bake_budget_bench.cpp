@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "files/file.h"

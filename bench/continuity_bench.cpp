@@ -21,10 +21,10 @@
 
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/parallel.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 #include <mimicry/technique/technique.h>
 
 #include "study_mesh.h"

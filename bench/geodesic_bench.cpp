@@ -9,10 +9,9 @@
 #include <mimicry/base/random.h>
 #include <mimicry/geodesic/exact.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/straightest.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "geodesic/site.h"
 #include "study_mesh.h"

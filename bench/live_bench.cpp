@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 #include <mimicry/technique/technique.h>
 
 #include "files/file.h"

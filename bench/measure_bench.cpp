@@ -5,10 +5,9 @@
 
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/measures.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 namespace {

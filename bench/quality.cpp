@@ -6,10 +6,10 @@
 #include <map>
 #include <string>
 
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/targets.h>
 
 #include "files/file.h"
 #include "quality_table.h"

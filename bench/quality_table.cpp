@@ -9,10 +9,10 @@
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/bootstrap.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/comparison.h>
 #include <mimicry/study/measures.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 #include "io/csv.h"
 #include "io/number.h"

@@ -16,7 +16,7 @@
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/random.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "files/file.h"

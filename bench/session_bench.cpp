@@ -8,11 +8,11 @@
 #include <benchmark/benchmark.h>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 #include "study_mesh.h"
 

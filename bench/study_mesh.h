@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "files/file.h"
 

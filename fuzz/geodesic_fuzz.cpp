@@ -10,10 +10,9 @@
 
 #include <mimicry/geodesic/exact.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace {
 

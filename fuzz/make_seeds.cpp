@@ -14,10 +14,9 @@
 #include <mimicry/base/random.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/io/embedding_file.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
 

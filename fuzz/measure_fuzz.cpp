@@ -7,14 +7,12 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/protocol.h>
 #include <mimicry/study/recording.h>
+#include <mimicry/study/targets.h>
 
 namespace {
 

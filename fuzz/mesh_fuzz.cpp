@@ -7,8 +7,7 @@
 #include <string_view>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 namespace {
 

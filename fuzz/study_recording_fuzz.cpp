@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/study_recording.h>
+#include <mimicry/io/study.h>
 
 // The first byte chooses the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,8 +4,7 @@
 #include <string_view>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mimicry;

@@ -1,3 +1,5 @@
+#include "assets/bake_cache.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -7,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/assets/bake_cache.h>
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>

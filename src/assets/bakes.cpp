@@ -1,12 +1,13 @@
+#include "assets/bakes.h"
+
 #include <filesystem>
 #include <utility>
 
-#include <mimicry/assets/bake_cache.h>
-#include <mimicry/assets/bakes.h>
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>
 
+#include "assets/bake_cache.h"
 #include "files/file.h"
 
 namespace mimicry::assets {

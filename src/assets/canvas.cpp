@@ -1,8 +1,9 @@
+#include "assets/canvas.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
 namespace mimicry::assets {

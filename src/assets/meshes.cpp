@@ -1,15 +1,16 @@
+#include "assets/meshes.h"
+
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
 
-#include <mimicry/assets/bakes.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "assets/bakes.h"
 #include "files/beside.h"
 #include "files/environment.h"
 #include "files/file.h"

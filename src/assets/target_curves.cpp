@@ -1,8 +1,9 @@
+#include "assets/target_curves.h"
+
 #include <filesystem>
 
-#include <mimicry/assets/target_curves.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 
 #include "files/file.h"
 

@@ -1,7 +1,8 @@
+#include "assets/work.h"
+
 #include <algorithm>
 #include <thread>
 
-#include <mimicry/assets/work.h>
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 

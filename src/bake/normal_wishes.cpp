@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 #include "bake/flat_tets.h"
 #include "phong/phong_surface.h"

@@ -1,4 +1,4 @@
-#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
 
 #include "capi/handles.h"
 

@@ -2,8 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include <mimicry/io/curves_glb.h>
-#include <mimicry/io/curves_ply.h>
+#include <mimicry/io/curves.h>
 
 #include "capi/handles.h"
 

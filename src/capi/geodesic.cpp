@@ -3,8 +3,7 @@
 
 #include <mimicry/geodesic/exact.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "capi/handles.h"
 

@@ -1,5 +1,5 @@
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/measures.h>
+#include <mimicry/study/targets.h>
 
 #include "capi/handles.h"
 

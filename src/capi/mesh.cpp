@@ -1,6 +1,6 @@
 #include <limits>
 
-#include <mimicry/io/mesh_files.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/mesh/validation.h>

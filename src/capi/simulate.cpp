@@ -1,4 +1,5 @@
 #include <mimicry/study/simulate.h>
+#include <mimicry/version.h>
 
 #include "capi/handles.h"
 

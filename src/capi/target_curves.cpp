@@ -1,6 +1,5 @@
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
-#include <mimicry/study/sample_targets.h>
+#include <mimicry/io/study.h>
+#include <mimicry/study/targets.h>
 
 #include "capi/handles.h"
 

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/assets/bakes.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/io/embedding_file.h>
 
+#include "assets/bakes.h"
+#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"

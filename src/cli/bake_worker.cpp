@@ -14,14 +14,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <mimicry/assets/bake_cache.h>
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>
-#include <mimicry/io/mesh_format.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/connect.h>
 
+#include "assets/bake_cache.h"
 #include "cli/commands.h"
 
 namespace mimicry::cli {

@@ -5,10 +5,6 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/pairing.h>
-#include <mimicry/lab/paper_agreement.h>
-#include <mimicry/lab/report_data.h>
 #include <mimicry/study/comparison.h>
 
 #include "cli/commands.h"
@@ -16,6 +12,10 @@
 #include "cli/console.h"
 #include "cli/options.h"
 #include "files/file.h"
+#include "lab/measured_rows.h"
+#include "lab/pairing.h"
+#include "lab/paper_agreement.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {

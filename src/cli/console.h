@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/assets/work.h>
+#include "assets/work.h"
 
 namespace mimicry::cli {
 

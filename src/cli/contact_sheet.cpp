@@ -1,10 +1,9 @@
 #include "cli/contact_sheet.h"
 
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
-
 #include "cli/console.h"
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 
 namespace mimicry::cli {
 namespace {

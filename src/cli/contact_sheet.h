@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/target_set.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry::cli {
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/assets/bakes.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>
 
+#include "assets/bakes.h"
+#include "assets/meshes.h"
 #include "bake/quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/validation.h>
 
+#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"

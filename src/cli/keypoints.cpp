@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/assets/meshes.h>
-#include <mimicry/assets/target_curves.h>
-#include <mimicry/study/keypoints.h>
+#include <mimicry/study/targets.h>
 
+#include "assets/meshes.h"
+#include "assets/target_curves.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
+#include <mimicry/version.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"

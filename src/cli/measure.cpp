@@ -2,13 +2,12 @@
 #include <memory>
 #include <string>
 
-#include <mimicry/lab/recorded_study.h>
-
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
 #include "files/file.h"
 #include "files/output_lock.h"
+#include "lab/recorded_study.h"
 
 namespace mimicry::cli {
 namespace {

@@ -2,9 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <mimicry/assets/bakes.h>
-#include <mimicry/lab/study_shapes.h>
 #include <mimicry/spatial/target.h>
+
+#include "assets/bakes.h"
+#include "lab/study_shapes.h"
 
 namespace mimicry::cli {
 

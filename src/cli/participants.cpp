@@ -1,11 +1,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <mimicry/lab/simulated_study.h>
-
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
+#include "lab/simulated_study.h"
 
 namespace mimicry::cli {
 namespace {

@@ -7,15 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/assets/canvas.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/curves_glb.h>
-#include <mimicry/io/curves_ply.h>
-#include <mimicry/render/palette.h>
 #include <mimicry/session/stroke_session.h>
 
+#include "assets/canvas.h"
+#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -25,6 +22,7 @@
 #include "files/output_lock.h"
 #include "io/number.h"
 #include "io/tube_mesh.h"
+#include "render/palette.h"
 #include "study/polyline.h"
 
 namespace mimicry::cli {

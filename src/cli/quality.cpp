@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/assets/bakes.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 
+#include "assets/bakes.h"
+#include "assets/meshes.h"
 #include "bake/projection_quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"

@@ -7,15 +7,12 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
 #include <mimicry/technique/technique.h>
 
+#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -23,6 +20,9 @@
 #include "files/file.h"
 #include "io/csv.h"
 #include "io/number.h"
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 
 namespace mimicry::cli {
 namespace {

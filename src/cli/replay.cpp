@@ -1,9 +1,9 @@
+#include "lab/replay.h"
+
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <mimicry/lab/replay.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/report_data.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -18,6 +16,8 @@
 #include "cli/report/page.h"
 #include "files/file.h"
 #include "files/output_lock.h"
+#include "lab/measured_rows.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {

@@ -7,10 +7,10 @@
 #include <system_error>
 #include <vector>
 
-#include <mimicry/assets/bakes.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/points.h>
+#include <mimicry/io/strokes.h>
 
+#include "assets/bakes.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"

@@ -14,11 +14,10 @@
 #include <qrcodegen/qrcodegen.hpp>
 #include <unistd.h>
 
-#include <mimicry/serve/server.h>
-
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "serve/server.h"
 
 namespace mimicry::cli {
 namespace {

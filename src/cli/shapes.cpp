@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "cli/commands.h"

@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/assets/canvas.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/lab/simulated_strokes.h>
 
+#include "assets/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
 #include "files/file.h"
 #include "files/output_lock.h"
+#include "lab/simulated_strokes.h"
 
 namespace mimicry::cli {
 namespace {

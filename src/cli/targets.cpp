@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/assets/canvas.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/targets_writer.h>
-#include <mimicry/study/sample_targets.h>
+#include <mimicry/io/study.h>
+#include <mimicry/study/targets.h>
 
+#include "assets/canvas.h"
+#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/contact_sheet.h"

@@ -2,7 +2,7 @@
 #include <numbers>
 #include <optional>
 
-#include <mimicry/curve/curvature.h>
+#include <mimicry/curve/projected_curve.h>
 
 #include "geodesic/site.h"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/surface.h>
 
 namespace mimicry {

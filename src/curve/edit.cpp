@@ -6,7 +6,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 #include "curve/curve_builder.h"
 #include "geodesic/along.h"

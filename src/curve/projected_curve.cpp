@@ -1,5 +1,5 @@
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/curve/refine.h>
+#include <mimicry/curve/projected_curve.h>
 
 #include "geodesic/site.h"
 

@@ -3,8 +3,8 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/curve/sample.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/mesh/surface.h>
 
 #include "curve/curve_builder.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include <mimicry/curve/sample.h>
+#include <mimicry/curve/projected_curve.h>
 
 #include "geodesic/site.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <mimicry/curve/refine.h>
+#include <mimicry/curve/projected_curve.h>
 
 namespace mimicry {
 

@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include <mimicry/mesh/crossing.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 

@@ -1,7 +1,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/bezier.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/along.h"
 #include "geodesic/site.h"

@@ -3,7 +3,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 #include "geodesic/site.h"
 

@@ -1,4 +1,4 @@
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/path_search.h"
 #include "geodesic/site.h"

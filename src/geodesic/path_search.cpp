@@ -1,6 +1,6 @@
 #include "geodesic/path_search.h"
 
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 
 namespace mimicry {
 

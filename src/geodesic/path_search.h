@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 
 #include "geodesic/site.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/plane.h"
 #include "geodesic/site.h"

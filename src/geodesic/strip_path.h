@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <mimicry/mesh/crossing.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 

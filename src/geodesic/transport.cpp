@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/site.h"
 

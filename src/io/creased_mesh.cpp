@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

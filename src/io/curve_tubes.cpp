@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 

@@ -2,7 +2,7 @@
 #include <deque>
 #include <utility>
 
-#include <mimicry/io/curves_glb.h>
+#include <mimicry/io/curves.h>
 
 #include "io/creased_mesh.h"
 #include "io/curve_tubes.h"

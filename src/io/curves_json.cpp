@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <mimicry/io/curves.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 #include "io/json.h"
 #include "io/json_document.h"

@@ -6,7 +6,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 #include "io/binary.h"
 

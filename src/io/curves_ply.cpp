@@ -2,7 +2,7 @@
 #include <limits>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/curves_ply.h>
+#include <mimicry/io/curves.h>
 
 #include "io/binary.h"
 #include "io/curve_tubes.h"

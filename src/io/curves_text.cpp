@@ -1,5 +1,5 @@
 #include <mimicry/io/curves.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 #include "io/number.h"
 #include "io/text.h"

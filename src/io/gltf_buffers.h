@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/gltf_json.h"
 

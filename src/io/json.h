@@ -9,7 +9,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/types.h>
-#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/triangle_mesh.h>
 #include <mimicry/stroke/stroke.h>
 
 #include "base/float_traps.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
 namespace mimicry {

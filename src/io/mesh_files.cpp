@@ -1,7 +1,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_files.h>
+#include <mimicry/io/meshes.h>
 
 namespace mimicry {
 namespace {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "base/float_traps.h"
 #include "io/mesh_builder.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 #include "base/float_traps.h"
 #include "io/mesh_writers.h"

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/points.h>
+#include <mimicry/io/strokes.h>
 
 #include "io/csv.h"
 #include "io/text.h"

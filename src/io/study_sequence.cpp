@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/io/study_recording.h>
+#include <mimicry/io/study.h>
 
 #include "io/json.h"
 #include "io/json_document.h"

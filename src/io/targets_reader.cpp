@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 
 #include "io/json.h"
 #include "io/json_document.h"

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 
 #include "io/json_text.h"
 

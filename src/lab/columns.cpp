@@ -1,4 +1,4 @@
-#include <mimicry/lab/columns.h>
+#include "lab/columns.h"
 
 namespace mimicry::lab {
 

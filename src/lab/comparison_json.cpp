@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <mimicry/lab/paper_agreement.h>
-#include <mimicry/lab/report_data.h>
+#include "lab/paper_agreement.h"
+#include "lab/report_data.h"
 
 namespace mimicry::lab {
 namespace {

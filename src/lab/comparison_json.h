@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/lab/pairing.h>
-
 #include "lab/json.h"
+#include "lab/pairing.h"
 
 namespace mimicry::lab {
 

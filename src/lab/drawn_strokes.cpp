@@ -1,20 +1,21 @@
+#include "lab/drawn_strokes.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
-#include <mimicry/assets/meshes.h>
-#include <mimicry/assets/target_curves.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/lab/drawn_strokes.h>
-#include <mimicry/lab/participant_folder.h>
-#include <mimicry/lab/study_numbers.h>
+#include <mimicry/io/study.h>
 
+#include "assets/meshes.h"
+#include "assets/target_curves.h"
 #include "files/file.h"
 #include "io/number.h"
 #include "lab/drawing.h"
+#include "lab/participant_folder.h"
 #include "lab/replay_settings.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

@@ -1,12 +1,14 @@
+#include "lab/measured_rows.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/participant_folder.h>
-#include <mimicry/lab/study_numbers.h>
+
+#include "lab/columns.h"
+#include "lab/participant_folder.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

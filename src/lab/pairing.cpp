@@ -1,3 +1,5 @@
+#include "lab/pairing.h"
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -5,11 +7,10 @@
 #include <set>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/pairing.h>
-#include <mimicry/lab/study_numbers.h>
 
 #include "io/number.h"
+#include "lab/columns.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

@@ -1,6 +1,7 @@
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/paper_agreement.h>
-#include <mimicry/lab/study_numbers.h>
+#include "lab/paper_agreement.h"
+
+#include "lab/columns.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 

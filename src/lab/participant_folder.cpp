@@ -1,9 +1,10 @@
+#include "lab/participant_folder.h"
+
 #include <filesystem>
 #include <limits>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/lab/participant_folder.h>
+#include <mimicry/io/study.h>
 
 #include "files/file.h"
 #include "io/number.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/lab/report_data.h>
+#include "lab/report_data.h"
 
 namespace mimicry::lab {
 namespace {

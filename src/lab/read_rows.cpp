@@ -2,12 +2,11 @@
 #include <optional>
 #include <utility>
 
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/participant_folder.h>
-#include <mimicry/lab/study_numbers.h>
-
 #include "io/number.h"
+#include "lab/columns.h"
+#include "lab/measured_rows.h"
+#include "lab/participant_folder.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

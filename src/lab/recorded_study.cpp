@@ -1,17 +1,19 @@
+#include "lab/recorded_study.h"
+
 #include <algorithm>
 #include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
 
-#include <mimicry/assets/meshes.h>
-#include <mimicry/assets/target_curves.h>
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
-#include <mimicry/lab/participant_folder.h>
-#include <mimicry/lab/recorded_study.h>
-#include <mimicry/lab/study_numbers.h>
-#include <mimicry/lab/study_shapes.h>
+
+#include "assets/meshes.h"
+#include "assets/target_curves.h"
+#include "lab/participant_folder.h"
+#include "lab/study_numbers.h"
+#include "lab/study_shapes.h"
 
 namespace mimicry::lab {
 namespace {

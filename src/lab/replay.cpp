@@ -1,4 +1,4 @@
-#include <mimicry/lab/replay.h>
+#include "lab/replay.h"
 
 #include "base/ordered_work.h"
 #include "lab/replay_settings.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
+#include <mimicry/version.h>
 
 #include "files/file.h"
 #include "lab/json.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/lab/replay.h>
+#include "lab/replay.h"
 
 namespace mimicry::lab {
 

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/lab/participant_folder.h>
-
 #include "io/stroke_splitter.h"
+#include "lab/participant_folder.h"
 
 namespace mimicry::lab {
 

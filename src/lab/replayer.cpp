@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <utility>
 
-#include <mimicry/assets/canvas.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/lab/study_numbers.h>
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/recording.h>
+#include <mimicry/study/targets.h>
 
+#include "assets/canvas.h"
+#include "assets/meshes.h"
 #include "lab/drawing.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

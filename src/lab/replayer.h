@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/assets/work.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/replay.h>
-#include <mimicry/lab/study_shapes.h>
 #include <mimicry/study/measures.h>
 
+#include "assets/work.h"
+#include "lab/measured_rows.h"
+#include "lab/replay.h"
 #include "lab/replay_source.h"
+#include "lab/study_shapes.h"
 
 namespace mimicry::lab {
 

@@ -1,11 +1,11 @@
+#include "lab/report_data.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/report_data.h>
-
+#include "lab/columns.h"
 #include "lab/comparison_json.h"
 #include "lab/json.h"
 

@@ -4,7 +4,8 @@
 #include <string>
 
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/keypoints.h>
+#include <mimicry/study/targets.h>
+#include <mimicry/version.h>
 
 namespace mimicry::lab {
 SimulatedDrawing draw_simulated(const Canvas& canvas, const TechniqueInfo& technique,

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/study/participants.h>
+#include <mimicry/study/simulate.h>
 #include <mimicry/technique/technique.h>
 
 namespace mimicry::lab {

@@ -1,21 +1,22 @@
+#include "lab/simulated_strokes.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <mimicry/assets/canvas.h>
-#include <mimicry/assets/meshes.h>
-#include <mimicry/assets/target_curves.h>
 #include <mimicry/base/error.h>
-#include <mimicry/lab/simulated_strokes.h>
-#include <mimicry/lab/study_shapes.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
+#include "assets/canvas.h"
+#include "assets/meshes.h"
+#include "assets/target_curves.h"
 #include "lab/simulated_drawing.h"
+#include "lab/study_shapes.h"
 
 namespace mimicry::lab {
 namespace {

@@ -1,18 +1,19 @@
+#include "lab/simulated_study.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
 
-#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
-#include <mimicry/lab/participant_folder.h>
-#include <mimicry/lab/simulated_study.h>
-#include <mimicry/lab/study_numbers.h>
-#include <mimicry/study/participants.h>
+#include <mimicry/study/simulate.h>
 
+#include "assets/canvas.h"
 #include "files/output_lock.h"
+#include "lab/participant_folder.h"
 #include "lab/simulated_drawing.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace {

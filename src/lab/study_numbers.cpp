@@ -1,9 +1,10 @@
+#include "lab/study_numbers.h"
+
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include <mimicry/lab/study_numbers.h>
-#include <mimicry/study/protocol.h>
+#include <mimicry/study/recording.h>
 
 #include "io/number.h"
 

@@ -1,11 +1,12 @@
+#include "lab/study_rows.h"
+
 #include <limits>
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/study_rows.h>
 
 #include "io/number.h"
+#include "lab/columns.h"
 
 namespace mimicry::lab {
 namespace {

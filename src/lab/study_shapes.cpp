@@ -1,13 +1,15 @@
+#include "lab/study_shapes.h"
+
 #include <algorithm>
 #include <filesystem>
 
-#include <mimicry/assets/meshes.h>
-#include <mimicry/assets/target_curves.h>
 #include <mimicry/base/error.h>
-#include <mimicry/lab/study_numbers.h>
-#include <mimicry/lab/study_shapes.h>
-#include <mimicry/study/keypoints.h>
-#include <mimicry/study/protocol.h>
+#include <mimicry/study/recording.h>
+#include <mimicry/study/targets.h>
+
+#include "assets/meshes.h"
+#include "assets/target_curves.h"
+#include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace fs = std::filesystem;

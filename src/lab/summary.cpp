@@ -1,3 +1,5 @@
+#include "lab/summary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,10 +7,10 @@
 #include <set>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/summary.h>
-#include <mimicry/study/protocol.h>
+#include <mimicry/study/recording.h>
 #include <mimicry/technique/technique.h>
+
+#include "lab/columns.h"
 
 namespace mimicry::lab {
 namespace {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

@@ -1,4 +1,5 @@
-#include <mimicry/render/palette.h>
+#include "render/palette.h"
+
 #include <mimicry/technique/technique.h>
 
 namespace mimicry::render {

@@ -1,10 +1,10 @@
+#include "render/text.h"
+
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
-
-#include <mimicry/render/text.h>
 
 #include "base/float_traps.h"
 

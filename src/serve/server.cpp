@@ -1,3 +1,5 @@
+#include "serve/server.h"
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -10,7 +12,6 @@
 #include <openssl/ssl.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/serve/server.h>
 
 #include "files/file.h"
 #include "serve/bake_queue.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/triangle_mesh.h>
 
 #include "spatial/triangle.h"
 

@@ -1,6 +1,6 @@
 #include <array>
 
-#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
 
 namespace mimicry {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <mimicry/stroke/frame.h>
+#include <mimicry/stroke/stroke.h>
 
 #include "base/finite.h"
 

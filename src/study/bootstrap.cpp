@@ -7,7 +7,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/study/bootstrap.h>
+#include <mimicry/study/comparison.h>
 
 #include "study/normal_distribution.h"
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include <mimicry/study/consistency.h>
+#include <mimicry/study/measures.h>
 
 namespace mimicry {
 

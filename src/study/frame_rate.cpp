@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <mimicry/study/frame_rate.h>
+#include <mimicry/study/recording.h>
 
 #include "study/polyline.h"
 

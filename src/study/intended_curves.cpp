@@ -7,7 +7,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curvature.h>
-#include <mimicry/study/keypoints.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/study/targets.h>
 
 #include "curve/curve_builder.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curvature.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/study/measures.h>
 
 #include "curve/curve_builder.h"

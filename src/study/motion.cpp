@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <mimicry/study/motion.h>
+#include <mimicry/study/measures.h>
 
 namespace mimicry {
 namespace {

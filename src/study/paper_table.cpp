@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <mimicry/study/paper_table.h>
+#include <mimicry/study/comparison.h>
 
 namespace mimicry {
 namespace {

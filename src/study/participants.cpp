@@ -8,7 +8,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/study/participants.h>
+#include <mimicry/study/simulate.h>
 
 namespace mimicry {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <mimicry/study/protocol.h>
+#include <mimicry/study/recording.h>
 
 namespace mimicry {
 namespace {

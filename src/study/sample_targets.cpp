@@ -4,8 +4,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/study/keypoints.h>
-#include <mimicry/study/sample_targets.h>
+#include <mimicry/study/targets.h>
 
 #include "curve/curve_builder.h"
 #include "curve/self_crossing.h"

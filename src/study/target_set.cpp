@@ -2,7 +2,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/study/target_set.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/study/wilcoxon.h>
+#include <mimicry/study/comparison.h>
 
 #include "study/normal_distribution.h"
 

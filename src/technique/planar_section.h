@@ -1,7 +1,7 @@
 #include <mimicry/mesh/surface.h>
 #pragma once
 
-#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/triangle_mesh.h>
 
 namespace mimicry {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 
 #include "technique/planar_section.h"
 

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/assets/bake_cache.h>
-#include <mimicry/assets/bakes.h>
-#include <mimicry/assets/canvas.h>
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
 
+#include "assets/bake_cache.h"
+#include "assets/bakes.h"
+#include "assets/canvas.h"
+#include "assets/meshes.h"
 #include "files/file.h"
 #include "support/folder.h"
 

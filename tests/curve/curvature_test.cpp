@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/curve/curvature.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"

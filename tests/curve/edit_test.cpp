@@ -6,10 +6,10 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/curve/curvature.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "curve/support.h"
 #include "geodesic/along.h"

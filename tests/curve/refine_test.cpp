@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/curve/refine.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"

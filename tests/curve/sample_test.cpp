@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/curve/sample.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"

@@ -13,7 +13,7 @@
 #include <mimicry/base/parallel.h>
 #include <mimicry/base/random.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
 namespace mimicry {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/bezier.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/along.h"

@@ -10,8 +10,8 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "geodesic/support.h"
 #include "messy/messy_meshes.h"

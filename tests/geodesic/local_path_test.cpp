@@ -2,7 +2,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/support.h"

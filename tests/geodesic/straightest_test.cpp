@@ -5,9 +5,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/straightest.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "geodesic/support.h"
 #include "messy/messy_meshes.h"

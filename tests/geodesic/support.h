@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <mimicry/base/random.h>
-#include <mimicry/mesh/crossing.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 

@@ -15,12 +15,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/curves_glb.h>
-#include <mimicry/io/curves_ply.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "curve/curve_builder.h"
 

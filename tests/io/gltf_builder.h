@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 namespace mimicry {
 

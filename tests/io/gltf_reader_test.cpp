@@ -7,7 +7,7 @@
 #include <tiny_gltf.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 namespace mimicry {
 namespace {

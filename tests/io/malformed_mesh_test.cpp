@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
 

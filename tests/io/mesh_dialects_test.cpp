@@ -12,10 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
-#include <mimicry/io/points.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/io/study.h>
 
 #include "io/csv.h"
 #include "io/mesh_fixtures.h"

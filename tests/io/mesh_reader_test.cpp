@@ -10,7 +10,7 @@
 #include <tiny_obj_loader.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 namespace mimicry {
 namespace {

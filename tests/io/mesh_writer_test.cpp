@@ -11,8 +11,7 @@
 #include <tiny_obj_loader.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
 

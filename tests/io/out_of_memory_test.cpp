@@ -9,11 +9,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "support/allocations.h"

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
 #include "io/number.h"

@@ -6,9 +6,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 
 namespace mimicry {
 namespace {

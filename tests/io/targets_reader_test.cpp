@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 
 namespace mimicry {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

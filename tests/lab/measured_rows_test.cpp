@@ -1,3 +1,5 @@
+#include "lab/measured_rows.h"
+
 #include <string>
 #include <vector>
 
@@ -5,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/study_rows.h>
+
+#include "lab/columns.h"
+#include "lab/study_rows.h"
 
 namespace mimicry::lab {
 namespace {

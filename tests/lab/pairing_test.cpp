@@ -1,12 +1,14 @@
+#include "lab/pairing.h"
+
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/pairing.h>
-#include <mimicry/lab/paper_agreement.h>
+
+#include "lab/measured_rows.h"
+#include "lab/paper_agreement.h"
 
 namespace mimicry::lab {
 namespace {

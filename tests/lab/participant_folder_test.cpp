@@ -1,9 +1,10 @@
+#include "lab/participant_folder.h"
+
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/participant_folder.h>
 
 #include "support/folder.h"
 

@@ -1,3 +1,5 @@
+#include "lab/replay.h"
+
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -5,19 +7,18 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/assets/meshes.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/targets_writer.h>
-#include <mimicry/lab/drawn_strokes.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/recorded_study.h>
-#include <mimicry/lab/replay.h>
-#include <mimicry/lab/simulated_strokes.h>
-#include <mimicry/lab/simulated_study.h>
+#include <mimicry/io/study.h>
 
+#include "assets/meshes.h"
 #include "files/file.h"
+#include "lab/drawn_strokes.h"
+#include "lab/measured_rows.h"
+#include "lab/recorded_study.h"
+#include "lab/simulated_strokes.h"
+#include "lab/simulated_study.h"
 #include "support/folder.h"
 
 namespace mimicry::lab {

@@ -1,12 +1,14 @@
+#include "lab/summary.h"
+
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/report_data.h>
-#include <mimicry/lab/summary.h>
+
+#include "lab/measured_rows.h"
+#include "lab/report_data.h"
 
 namespace mimicry::lab {
 namespace {

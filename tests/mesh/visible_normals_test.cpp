@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

@@ -1,3 +1,5 @@
+#include "render/palette.h"
+
 #include <cmath>
 #include <string>
 #include <vector>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/types.h>
-#include <mimicry/render/palette.h>
 #include <mimicry/technique/technique.h>
 
 namespace mimicry::render {

@@ -100,15 +100,15 @@ TEST(BakedSession, OddTargets) {
     TriangleMesh mesh;
     Vec3 at;  // so that the stroke passes within the shell
   };
-  for (const auto& [mesh, at] :
-       {Placed{one, Vec3(0, 0, 1.1)}, Placed{make_grid(5), Vec3(0, 0, 1.1)},
-        Placed{make_two_spheres(4), Vec3(-0.4, -0.3, 0.7)}}) {
-    const test::BakedTarget baked(mesh);
+  for (const Placed& placed : {Placed{one, Vec3(0, 0, 1.1)}, Placed{make_grid(5), Vec3(0, 0, 1.1)},
+                               Placed{make_two_spheres(4), Vec3(-0.4, -0.3, 0.7)}}) {
+    const test::BakedTarget baked(placed.mesh);
     Stroke stroke = test::waving_stroke(100);
-    stroke.model_to_world.translation = at;
+    stroke.model_to_world.translation = placed.at;
     each_baked_technique([&](const TechniqueInfo& info) {
       const ProjectedCurve curve = project(baked.canvas(), info, stroke).curve;
-      ASSERT_FALSE(curve.points.empty()) << info.name << ", " << mesh.face_count() << " faces";
+      ASSERT_FALSE(curve.points.empty())
+          << info.name << ", " << placed.mesh.face_count() << " faces";
       for (const auto& p : curve.points) ASSERT_TRUE(p.position.allFinite()) << info.name;
     });
   }

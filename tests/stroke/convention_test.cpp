@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
 
 namespace mimicry {
 namespace {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/stroke/frame.h>
 #include <mimicry/stroke/stroke.h>
 
 namespace mimicry {

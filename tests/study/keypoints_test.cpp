@@ -6,7 +6,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/keypoints.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 namespace {

@@ -6,12 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/consistency.h>
-#include <mimicry/study/frame_rate.h>
 #include <mimicry/study/measures.h>
+#include <mimicry/study/recording.h>
 
 #include "curve/curve_builder.h"
 #include "study/polyline.h"

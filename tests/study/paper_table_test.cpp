@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/study/paper_table.h>
+#include <mimicry/study/comparison.h>
 
 namespace mimicry {
 namespace {

@@ -7,11 +7,10 @@
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/protocol.h>
 #include <mimicry/study/recording.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 namespace mimicry {
 namespace {

@@ -9,9 +9,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
 #include <mimicry/base/types.h>
-#include <mimicry/study/bootstrap.h>
 #include <mimicry/study/comparison.h>
-#include <mimicry/study/wilcoxon.h>
 
 #include "study/holm.h"
 #include "study/normal_distribution.h"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 #include "any_memory.h"
 #include "support/baked.h"

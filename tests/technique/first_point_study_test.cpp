@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "any_memory.h"
 #include "presses.h"

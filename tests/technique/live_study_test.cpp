@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 #include <mimicry/study/simulate.h>
 #include <mimicry/technique/technique.h>
 

@@ -5,7 +5,7 @@
 
 #include <mimicry/base/parallel.h>
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/surface.h>
 
 namespace mimicry {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <mimicry/base/parallel.h>
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/surface.h>
 
 namespace mimicry {

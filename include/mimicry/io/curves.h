@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <mimicry/base/similarity.h>
+#include <mimicry/base/types.h>
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
@@ -71,5 +73,30 @@ std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh,
 
 /// One row a point, crossings included (columns in docs/formats.md), part and row in drawing order.
 std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh);
+
+/// A GLB scene: the target, and each curve as a round tube of its colour (one node a curve, named
+/// stroke and technique; parts between gaps are separate tubes). Model units. The target has
+/// normals: its faces stay, and its vertices are split where faces meet at more than 38 degrees.
+/// colors: one per curve, sRGB, 0 to 255. radius: > 0, model units; of curves without radii of
+/// their own.
+std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors, double radius);
+
+/// The same with line strips (primitives of mode 3) in place of tubes: the curves' own points,
+/// which viewers show one pixel wide. Parts of a single point are left out.
+std::string write_curves_glb_lines(const CurveSet& set, const TriangleMesh& mesh,
+                                   std::span<const std::array<unsigned char, 3>> colors);
+
+/// Binary PLY with the tubes of all curves, `vertex` (x, y, z, nx, ny, nz, red, green, blue, curve)
+/// and `face` (vertex_indices) elements. colors: one per curve, 0 to 255. radius: > 0, model
+/// units; of curves without radii of their own. Throws Error(unsupported) where there are more
+/// vertices than an Index counts.
+std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors, double radius);
+
+/// Ascii PLY with the curves' own points: `vertex` (x, y, z, red, green, blue, curve) and `edge`
+/// (vertex1, vertex2) elements. Many readers know no edges (docs/formats.md).
+std::string write_curves_ply_lines(const CurveSet& set, const TriangleMesh& mesh,
+                                   std::span<const std::array<unsigned char, 3>> colors);
 
 }  // namespace mimicry

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include <mimicry/base/similarity.h>
+#include <mimicry/base/types.h>
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/stroke/stroke.h>
 #include <mimicry/technique/technique.h>

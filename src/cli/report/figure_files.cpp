@@ -12,11 +12,11 @@
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/text.h>
 
 #include "cli/interrupt.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
+#include "render/text.h"
 
 extern char** environ;
 

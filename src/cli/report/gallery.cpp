@@ -5,12 +5,12 @@
 #include <cstdio>
 
 #include <mimicry/base/error.h>
-#include <mimicry/lab/drawn_strokes.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
 
 #include "cli/console.h"
+#include "lab/drawn_strokes.h"
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 
 namespace mimicry::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/lab/drawn_strokes.h>
-#include <mimicry/lab/report_data.h>
+#include "lab/drawn_strokes.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 

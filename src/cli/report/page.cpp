@@ -2,15 +2,14 @@
 
 #include <cmath>
 
-#include <mimicry/lab/columns.h>
-#include <mimicry/lab/paper_agreement.h>
-#include <mimicry/lab/report_data.h>
-
 #include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
 #include "cli/report/page_style.h"
+#include "lab/columns.h"
+#include "lab/paper_agreement.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {

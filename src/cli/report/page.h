@@ -3,10 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/lab/measured_rows.h>
-#include <mimicry/lab/summary.h>
-
 #include "cli/report/gallery.h"
+#include "lab/measured_rows.h"
+#include "lab/summary.h"
 
 namespace mimicry::cli {
 
