@@ -15,6 +15,7 @@
 
 #include "files/environment.h"
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::assets {
 namespace {
@@ -43,7 +44,7 @@ void require_place(const fs::path& file) {
   std::error_code none;
   const fs::path folder = file.parent_path();
   const auto refuse = [](const fs::path& path, const char* what) {
-    throw Error(ErrorKind::io, path.string() + ": is " + what +
+    throw Error(ErrorKind::io, to_text(path) + ": is " + what +
                                    " where bakes are kept; remove it, set MIMICRY_CACHE to another "
                                    "folder or empty, or pass --no-cache");
   };
@@ -91,19 +92,19 @@ void shrink(const fs::path& folder, std::uintmax_t most_bytes) {
 BakeCache BakeCache::of_user() {
   if (const auto own = environment("MIMICRY_CACHE")) return BakeCache(*own);
   const std::string folder = cache_folder();
-  return folder.empty() ? BakeCache() : BakeCache((fs::path(folder) / "mimicry").string());
+  return folder.empty() ? BakeCache() : BakeCache(join_path(folder, "mimicry"));
 }
 
 std::optional<Embedding> BakeCache::find(const TriangleMesh& mesh,
                                          const BakeOptions& options) const {
   if (folder_.empty()) return std::nullopt;
   const std::uint64_t hash = content_hash(mesh);
-  const fs::path path = fs::path(folder_) / file_name(hash, options);
+  const fs::path path = to_path(folder_) / file_name(hash, options);
   require_place(path);
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return std::nullopt;
   try {
-    Embedding e = read_embedding(MappedFile(path.string(), Accept::regular).bytes(), path.string());
+    Embedding e = read_embedding(MappedFile(to_text(path), Accept::regular).bytes(), to_text(path));
     const bool is_it = e.mesh_hash == hash && e.mesh_vertex_count == mesh.vertex_count() &&
                        e.face_count() == mesh.face_count() &&
                        e.options.dimension == options.dimension &&
@@ -119,9 +120,9 @@ std::optional<Embedding> BakeCache::find(const TriangleMesh& mesh,
 void BakeCache::keep(const Embedding& e) const {
   if (folder_.empty()) return;
   std::error_code trouble;
-  fs::create_directories(folder_, trouble);
-  const fs::path path = fs::path(folder_) / file_name(e.mesh_hash, e.options);
-  write_file_atomically(path.string(), write_embedding(e));
+  fs::create_directories(to_path(folder_), trouble);
+  const fs::path path = to_path(folder_) / file_name(e.mesh_hash, e.options);
+  write_file_atomically(to_text(path), write_embedding(e));
   shrink(folder_, most_bytes_);
 }
 

@@ -9,6 +9,7 @@
 
 #include "assets/bake_cache.h"
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::assets {
 
@@ -31,11 +32,11 @@ Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings, const Mo
 }
 
 Embedding load_embedding(const std::string& file) {
-  return read_embedding(MappedFile(file).bytes(), std::filesystem::path(file).filename().string());
+  return read_embedding(MappedFile(file).bytes(), file_name(file));
 }
 
 bool is_embedding_file(const std::string& spec) {
-  return std::filesystem::path(spec).extension() == ".mimicry";
+  return to_path(spec).extension() == ".mimicry";
 }
 
 LoadedProjector::LoadedProjector(Embedding embedding, const std::string& name) {

@@ -6,6 +6,8 @@
 
 #include <mimicry/base/error.h>
 
+#include "files/names.h"
+
 namespace mimicry::assets {
 
 std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
@@ -42,8 +44,7 @@ SmoothProjector PreparedCanvas::projector_of(const Target& target,
   try {
     return {std::move(embedding), target};
   } catch (const Error& error) {
-    throw Error(error.kind(),
-                std::filesystem::path(embedding_file).filename().string() + ": " + error.what());
+    throw Error(error.kind(), file_name(embedding_file) + ": " + error.what());
   }
 }
 

@@ -14,6 +14,7 @@
 #include "files/beside.h"
 #include "files/environment.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "io/number.h"
 
 namespace mimicry::assets {
@@ -74,7 +75,7 @@ TriangleMesh load_baked_surface(const std::string& spec, const std::string& name
 
 NamedMesh load_mesh(const std::string& spec, const Monitor& monitor) {
   if (spec.starts_with(kShapePrefix)) return load_shape(spec);
-  const std::string name = std::filesystem::path(spec).filename().string();
+  const std::string name = file_name(spec);
   TriangleMesh mesh = is_embedding_file(spec) ? load_baked_surface(spec, name, monitor)
                                               : read_mesh(read_file(spec), mesh_format_of(spec),
                                                           name, read_options(spec, name, monitor));
@@ -84,8 +85,8 @@ NamedMesh load_mesh(const std::string& spec, const Monitor& monitor) {
 
 std::string find_mesh_file(const std::string& folder, const std::string& name) {
   for (const char* extension : {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}) {
-    const auto path = std::filesystem::path(folder) / (name + extension);
-    if (std::filesystem::is_regular_file(path)) return path.string();
+    std::string path = join_path(folder, name + extension);
+    if (std::filesystem::is_regular_file(to_path(path))) return path;
   }
   throw Error(ErrorKind::io,
               folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb, .gltf)");
@@ -94,8 +95,8 @@ std::string find_mesh_file(const std::string& folder, const std::string& name) {
 std::string mesh_spec(const std::string& folder, const std::string& shape) {
   if (folder.empty()) return std::string(kShapePrefix) + shape;
   std::error_code none;
-  const std::filesystem::path file = std::filesystem::path(folder) / shape;
-  if (std::filesystem::is_regular_file(file, none)) return file.string();
+  std::string file = join_path(folder, shape);
+  if (std::filesystem::is_regular_file(to_path(file), none)) return file;
   return find_mesh_file(folder, shape);
 }
 

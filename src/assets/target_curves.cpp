@@ -6,11 +6,12 @@
 #include <mimicry/io/study.h>
 
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::assets {
 
 TargetSet load_targets(const std::string& path) {
-  return read_targets(read_file(path), std::filesystem::path(path).filename().string());
+  return read_targets(read_file(path), file_name(path));
 }
 
 const TargetShape& find_target_shape(const TargetSet& set, const std::string& name,

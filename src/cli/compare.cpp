@@ -12,6 +12,7 @@
 #include "cli/console.h"
 #include "cli/options.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "lab/measured_rows.h"
 #include "lab/pairing.h"
 #include "lab/paper_agreement.h"
@@ -80,7 +81,7 @@ void print_group(const lab::PairedGroup& group, const std::vector<Comparison>& c
 void run_compare(CompareArguments args) {
   if (args.methods.size() != 2 || args.methods[0] == args.methods[1])
     throw Error(ErrorKind::invalid_input, "--methods: give two, as in --methods spraycan,mimicry");
-  const std::string name = std::filesystem::path(args.rows).filename().string();
+  const std::string name = file_name(args.rows);
   const CsvTable table = lab::read_rows(read_file(args.rows), name, terminal_monitor());
   args.pairing.method_a = args.methods[0];
   args.pairing.method_b = args.methods[1];

@@ -14,6 +14,7 @@
 #include "cli/console.h"
 #include "cli/options.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "io/embedding_text.h"
 
 namespace mimicry::cli {
@@ -27,8 +28,7 @@ struct ImportEmbeddingArguments {
 };
 
 EmbeddingText read(const std::string& file, int corners) {
-  return read_embedding_text(read_file(file), std::filesystem::path(file).filename().string(),
-                             corners);
+  return read_embedding_text(read_file(file), file_name(file), corners);
 }
 
 // The vertices' places as the mesh's own file has them, so that the embedding is that mesh's.
@@ -57,8 +57,7 @@ void run_import_embedding(const ImportEmbeddingArguments& args) {
   const Eigen::Map<const Values> values(e.values.data(), e.vertex_count(), e.dimension);
   e.quality.sliver_percent = sliver_percent(e.tets, values);
   // All that is refused is refused before the file is written.
-  const assets::LoadedProjector projector(e,
-                                          std::filesystem::path(args.surface).filename().string());
+  const assets::LoadedProjector projector(e, file_name(args.surface));
   write_file_atomically(args.out, write_embedding(e));
   std::printf("%s: %d vertices, %d faces; shell of %d vertices, %zu tetrahedra; slivers %s %%\n",
               args.out.c_str(), e.mesh_vertex_count, e.face_count(), e.vertex_count(),

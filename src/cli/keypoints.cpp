@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
+#include "files/names.h"
 
 namespace mimicry::cli {
 namespace {
@@ -30,8 +31,7 @@ void run_keypoints(const KeypointsArguments& args) {
   const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
   const Target target = assets::make_target(named, args.target, terminal_monitor());
   const TargetSet set = assets::load_targets(args.targets);
-  const std::string wanted =
-      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
+  const std::string wanted = args.shape.empty() ? file_stem(named.name) : args.shape;
   const TargetShape& shape = assets::find_target_shape(set, wanted, args.targets);
   require_fits(shape, named.mesh);
   const double scale = args.scale > 0.0 ? args.scale : shape.scale;

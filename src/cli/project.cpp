@@ -19,6 +19,7 @@
 #include "cli/project_table.h"
 #include "cli/strokes_input.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "io/number.h"
 #include "io/tube_mesh.h"
@@ -267,14 +268,13 @@ void run_project(const ProjectArguments& args, int& status) {
     }
   }
 
-  const std::filesystem::path folder(args.out);
   // All bytes are made before the first file is written.
   std::vector<std::string> bytes;
   for (const std::string& format : args.formats)
     bytes.push_back(file_bytes(format, set, target.mesh(), args, radius));
   std::vector<std::string> written;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
-    written.push_back((folder / ("curves." + args.formats[i])).string());
+    written.push_back(join_path(args.out, "curves." + args.formats[i]));
     write_file_atomically(written.back(), bytes[i]);
   }
   if (args.json) return print_rows_json(rows, written);

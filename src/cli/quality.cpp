@@ -17,6 +17,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
+#include "files/names.h"
 #include "io/csv.h"
 
 namespace mimicry::cli {
@@ -73,7 +74,7 @@ struct QualityRow {
 // namesakes.
 const PaperRow* paper_row(const std::string& spec) {
   if (spec.starts_with("shape:")) return nullptr;
-  const std::string stem = std::filesystem::path(spec).stem().string();
+  const std::string stem = file_stem(spec);
   for (const PaperRow& row : kPaper)
     if (row.name == stem) return &row;
   return nullptr;
@@ -84,7 +85,7 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   row.paper = paper_row(spec);
   Embedding e;
   if (assets::is_embedding_file(spec)) {
-    row.name = std::filesystem::path(spec).filename().string();
+    row.name = file_name(spec);
     e = assets::load_embedding(spec);
   } else {
     const assets::NamedMesh named = assets::load_mesh(spec, terminal_monitor());

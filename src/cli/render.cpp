@@ -18,6 +18,7 @@
 #include "cli/options.h"
 #include "cli/strokes_input.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "io/csv.h"
 #include "io/number.h"
 #include "render/figure.h"
@@ -51,7 +52,7 @@ struct RenderArguments {
 constexpr render::Color kIntendedColor{0.98, 0.98, 0.94};
 
 std::string name_of(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
+  return file_name(path);
 }
 
 // Strokes are shown where they were drawn, in the mesh's coordinates.
@@ -224,7 +225,7 @@ void run_render(const RenderArguments& args, int& status) {
     if (args.height > 0) options.height = args.height;
     image = render::picture(scene, camera, options);
   }
-  const std::filesystem::path folder = std::filesystem::path(args.out).parent_path();
+  const std::filesystem::path folder = to_path(args.out).parent_path();
   std::error_code trouble;
   if (!folder.empty()) std::filesystem::create_directories(folder, trouble);
   write_file_atomically(args.out, render::write_png(image));

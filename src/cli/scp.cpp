@@ -15,6 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::cli {
 namespace {
@@ -28,15 +29,14 @@ struct ScpArguments {
 };
 
 void run_scp(const ScpArguments& args, int& status) {
-  const std::string points_name = std::filesystem::path(args.points).filename().string();
+  const std::string points_name = file_name(args.points);
   std::error_code unknown;  // of a file that does not exist
-  if (std::filesystem::equivalent(args.points, args.out, unknown))
+  if (std::filesystem::equivalent(to_path(args.points), to_path(args.out), unknown))
     throw Error(ErrorKind::invalid_input,
                 args.out + ": is what --points names, and would be lost; give another --out");
   const PointRows rows = read_points_csv(read_file(args.points), points_name);
-  const assets::LoadedProjector projector(
-      assets::load_embedding(args.embedding),
-      std::filesystem::path(args.embedding).filename().string());
+  const assets::LoadedProjector projector(assets::load_embedding(args.embedding),
+                                          file_name(args.embedding));
 
   std::vector<std::optional<SmoothPoint>> answers(rows.points.size());
   Executor executor(assets::thread_count(args.threads));

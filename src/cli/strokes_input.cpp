@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::cli {
 
@@ -17,7 +18,7 @@ void tell_left_out(const std::string& what, int& status) {
 }
 
 std::vector<Stroke> load_strokes(const std::string& path, int& status) {
-  const std::string name = std::filesystem::path(path).filename().string();
+  const std::string name = file_name(path);
   StrokesFile file = read_strokes(read_file(path), name);
   for (const std::string& what : file.left_out) tell_left_out(what, status);
   return std::move(file.strokes);

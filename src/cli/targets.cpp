@@ -17,6 +17,7 @@
 #include "cli/contact_sheet.h"
 #include "cli/options.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 
 namespace mimicry::cli {
@@ -70,7 +71,7 @@ void run_targets(const TargetsArguments& args) {
                              });
   }
   TargetShape shape;
-  shape.name = args.name.empty() ? std::filesystem::path(named.name).stem().string() : args.name;
+  shape.name = args.name.empty() ? file_stem(named.name) : args.name;
   shape.scale = scale;
   shape.curves = sampled.curves;
   const std::string note = "Target curves on " + named.name + " (" +
@@ -82,7 +83,7 @@ void run_targets(const TargetsArguments& args) {
                            std::to_string(args.seed) + ".";
   const std::string text = write_targets({{shape}}, note);
   std::string picture = args.picture;
-  if (picture.empty()) picture = std::filesystem::path(args.out).replace_extension(".png").string();
+  if (picture.empty()) picture = to_text(to_path(args.out).replace_extension(".png"));
   std::optional<std::string> sheet;
   if (!args.no_picture)
     sheet = contact_sheet(target, shape.curves, args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY());

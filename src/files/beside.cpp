@@ -7,6 +7,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/file.h"
+#include "files/names.h"
 #include "files/system.h"
 
 namespace mimicry {

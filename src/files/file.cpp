@@ -6,6 +6,7 @@
 
 #include <mimicry/base/error.h>
 
+#include "files/names.h"
 #include "files/system.h"
 #include "files/unfinished.h"
 

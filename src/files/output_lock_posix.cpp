@@ -9,6 +9,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/file.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "files/system.h"
 #include "files/unfinished.h"
@@ -65,7 +66,7 @@ OutputLock OutputLock::of_file(const std::string& file) {
   const auto status = std::filesystem::status(file, none);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return OutputLock(nullptr);
-  const std::filesystem::path path(file);
+  const std::filesystem::path path = to_path(file);
   const std::string name =
       (path.parent_path() / ("." + path.filename().string() + ".lock")).string();
   for (;;) {

@@ -6,6 +6,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/file.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "files/system.h"
 #include "files/windows.h"

@@ -83,7 +83,4 @@ void sleep_ms(int milliseconds) noexcept;
 /// Until the program ends.
 void wait_for_end() noexcept;
 
-std::filesystem::path to_path(const std::string& text);
-std::string to_text(const std::filesystem::path& path);
-
 }  // namespace mimicry

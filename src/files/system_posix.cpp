@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "files/environment.h"
+#include "files/names.h"
 #include "files/system.h"
 
 namespace mimicry {

@@ -8,6 +8,7 @@
 #include <windows.h>
 
 #include "files/environment.h"
+#include "files/names.h"
 #include "files/system.h"
 #include "files/windows.h"
 

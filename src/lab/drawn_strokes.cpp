@@ -11,6 +11,7 @@
 #include "assets/meshes.h"
 #include "assets/target_curves.h"
 #include "files/file.h"
+#include "files/names.h"
 #include "io/number.h"
 #include "lab/drawing.h"
 #include "lab/participant_folder.h"
@@ -72,20 +73,19 @@ DrawnStrokes::Shape& DrawnStrokes::shape(const std::string& name) {
 // Of the participant's folder, or the strokes file.
 std::string DrawnStrokes::path_of(const StudyRow& row) const {
   const auto known = sources_.files.find(row.participant);
-  if (known == sources_.files.end())
-    return (fs::path(sources_.recordings) / row.participant).string();
+  if (known == sources_.files.end()) return join_path(sources_.recordings, row.participant);
   if (known->second.empty())
     refuse_row("several strokes that were replayed are called " + row.participant +
                "; say which with --recordings");
   std::error_code none;
-  if (!fs::exists(known->second, none))
+  if (!fs::exists(to_path(known->second), none))
     refuse_row(known->second +
                ": is no longer where it was replayed from; say where with --recordings");
   return known->second;
 }
 
 const RecordedStroke& DrawnStrokes::recording(const StudyRow& row) {
-  const std::string path = (fs::path(path_of(row)) / row.recording).string();
+  const std::string path = join_path(path_of(row), row.recording);
   auto found = recordings_.find(path);
   if (found == recordings_.end())
     found = recordings_.emplace(path, read_recording(read_file(path), path)).first;
@@ -136,7 +136,8 @@ DrawnStroke DrawnStrokes::recorded(const StudyRow& row) {
 DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   DrawnStroke drawn;
   // A strokes file may have strokes of such names.
-  const bool of_folder = RecordingName::of_file(row.recording) && fs::is_directory(path_of(row));
+  const bool of_folder =
+      RecordingName::of_file(row.recording) && fs::is_directory(to_path(path_of(row)));
   drawn.stroke = of_folder ? stroke_of(recording(row)) : stroke_of_file(row);
   Shape& on = shape(row.shape);
   drawn.target = on.target.get();

@@ -6,6 +6,7 @@
 
 #include <mimicry/base/error.h>
 
+#include "files/names.h"
 #include "lab/columns.h"
 #include "lab/participant_folder.h"
 #include "lab/study_numbers.h"
@@ -194,8 +195,8 @@ std::vector<RejectedStroke> read_rejected(std::string_view bytes, std::string_vi
 }
 
 std::string rejected_beside(const std::string& rows) {
-  const std::filesystem::path path(rows);
-  return (path.parent_path() / (path.stem().string() + ".rejected.csv")).string();
+  const std::filesystem::path path = to_path(rows);
+  return join_path(to_text(path.parent_path()), file_stem(rows) + ".rejected.csv");
 }
 
 }  // namespace mimicry::lab

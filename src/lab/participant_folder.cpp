@@ -7,6 +7,7 @@
 #include <mimicry/io/study.h>
 
 #include "files/file.h"
+#include "files/names.h"
 #include "io/number.h"
 
 namespace mimicry::lab {
@@ -17,7 +18,7 @@ constexpr std::string_view kRecordingEnding = ".json";
 constexpr char kBeforeIndex = '#';
 
 std::string beside(const std::string& folder, const std::string& name) {
-  return (std::filesystem::path(folder) / name).string();
+  return join_path(folder, name);
 }
 
 // Digits alone, as we write them.
@@ -63,12 +64,12 @@ std::optional<RecordedStrokeName> recorded_stroke_of(std::string_view text) {
 }
 
 std::string source_name(const std::string& path) {
-  std::filesystem::path last(path);
+  std::filesystem::path last = to_path(path);
   // "participants/07/" has no file name of its own.
   if (!last.has_filename()) last = last.parent_path();
   if (last == "." || last == "..") last = std::filesystem::absolute(last).lexically_normal();
   if (!last.has_filename()) last = last.parent_path();
-  return last.filename().string();
+  return to_text(last.filename());
 }
 
 ParticipantFolder::ParticipantFolder(const std::string& folder)

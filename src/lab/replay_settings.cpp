@@ -8,6 +8,7 @@
 #include <mimicry/version.h>
 
 #include "files/file.h"
+#include "files/names.h"
 #include "lab/json.h"
 
 namespace mimicry::lab {
@@ -22,7 +23,7 @@ constexpr const char *kVersion = "version", *kStrokes = "strokes", *kBytes = "by
 constexpr const char *kSplit = "split", *kConnect = "connect";
 
 std::string absolute(const std::string& path) {
-  return path.empty() ? path : fs::absolute(path).lexically_normal().string();
+  return path.empty() ? path : to_text(fs::absolute(to_path(path)).lexically_normal());
 }
 
 Json to_json(const ReplaySettings& settings) {
@@ -39,10 +40,10 @@ Json to_json(const ReplaySettings& settings) {
 // A study that was moved as a whole keeps its inner paths.
 std::string found(const std::string& path, const fs::path& then, const fs::path& now) {
   std::error_code none;
-  const bool is_path = fs::path(path).is_absolute();  // and not a built-in shape, or nothing
-  if (!is_path || then.empty() || fs::exists(path, none)) return path;
-  const fs::path moved = (now / fs::path(path).lexically_relative(then)).lexically_normal();
-  return fs::exists(moved, none) ? moved.string() : path;
+  const bool is_path = to_path(path).is_absolute();  // and not a built-in shape, or nothing
+  if (!is_path || then.empty() || fs::exists(to_path(path), none)) return path;
+  const fs::path moved = (now / to_path(path).lexically_relative(then)).lexically_normal();
+  return fs::exists(moved, none) ? to_text(moved) : path;
 }
 
 }  // namespace
@@ -52,13 +53,13 @@ ReplaySettings settings_of(const ReplayOptions& options) {
   settings.version = MIMICRY_VERSION;
   for (const std::string& path : options.strokes) {
     std::error_code none;
-    const auto size = fs::file_size(path, none);
+    const auto size = fs::file_size(to_path(path), none);
     settings.strokes.push_back(absolute(path));
     settings.bytes.push_back(none ? 0 : size);
   }
   for (const TechniqueInfo* info : options.techniques) settings.techniques.emplace_back(info->name);
   settings.shapes = absolute(options.shapes);
-  settings.mesh = fs::exists(options.mesh) ? absolute(options.mesh) : options.mesh;
+  settings.mesh = fs::exists(to_path(options.mesh)) ? absolute(options.mesh) : options.mesh;
   settings.targets = absolute(options.targets);
   settings.misses = options.misses;
   settings.folder = absolute(options.out);
@@ -72,18 +73,18 @@ std::string settings_line(const ReplaySettings& settings) {
 void write_settings(const std::string& folder, const ReplaySettings& settings) {
   Json json = to_json(settings);
   json[kFolder] = settings.folder;
-  write_file_atomically((fs::path(folder) / kFile).string(), json_text(json, 2) + "\n");
+  write_file_atomically(join_path(folder, kFile), json_text(json, 2) + "\n");
 }
 
 std::optional<ReplaySettings> read_settings(const std::string& folder) {
-  const fs::path path = fs::path(folder) / kFile;
+  const fs::path path = to_path(folder) / kFile;
   std::error_code none;
   if (!fs::exists(path, none)) return std::nullopt;
   try {
-    const Json json = Json::parse(read_file(path.string(), Accept::regular));
+    const Json json = Json::parse(read_file(to_text(path), Accept::regular));
     ReplaySettings settings;
     settings.folder = json.value(kFolder, "");
-    const fs::path now = fs::absolute(folder).lexically_normal();
+    const fs::path now = fs::absolute(to_path(folder)).lexically_normal();
     const auto path_of = [&](const std::string& then) { return found(then, settings.folder, now); };
     settings.version = json.value(kVersion, "");
     for (const Json& stroke : json.at(kStrokes))
@@ -95,7 +96,7 @@ std::optional<ReplaySettings> read_settings(const std::string& folder) {
     return settings;
   } catch (const Json::exception& error) {
     throw Error(ErrorKind::invalid_input,
-                path.string() + ": is no settings of mimicry replay: " + error.what() +
+                to_text(path) + ": is no settings of mimicry replay: " + error.what() +
                     "; remove it, or name --recordings, --shapes and "
                     "--targets");
   }

@@ -8,6 +8,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/environment.h"
+#include "files/names.h"
 
 namespace mimicry::lab {
 
@@ -16,14 +17,14 @@ namespace fs = std::filesystem;
 ReplaySource::ReplaySource(const std::vector<std::string>& paths) : paths_(paths) {
   for (const std::string& path : paths_) {
     std::error_code trouble;
-    const fs::file_status status = fs::status(path, trouble);
+    const fs::file_status status = fs::status(to_path(path), trouble);
     if (!fs::exists(status)) throw Error(ErrorKind::io, path + ": is not there; check the path");
     // A folder counts by its files, so that progress is even.
     if (fs::is_directory(status)) {
-      for (const auto& entry : fs::directory_iterator(path))
+      for (const auto& entry : fs::directory_iterator(to_path(path)))
         if (entry.is_regular_file()) bytes_ += entry.file_size();
     } else {
-      const auto size = fs::file_size(path, trouble);
+      const auto size = fs::file_size(to_path(path), trouble);
       if (!trouble) bytes_ += size;  // what a pipe will give is not known
     }
   }
@@ -41,7 +42,7 @@ std::optional<ReplayJob> ReplaySource::next() {
     if (path_ == paths_.size()) return std::nullopt;
     const std::string& path = paths_[path_++];
     index_ = 0;
-    if (fs::is_directory(path)) {
+    if (fs::is_directory(to_path(path))) {
       try {
         participant_ = std::make_shared<const ParticipantFolder>(path);
       } catch (const Error& error) {
@@ -85,7 +86,7 @@ std::optional<ReplayJob> ReplaySource::next_of_folder() {
                    sequence.shapes[index_ % sequence.shapes.size()]};
   ++index_;
   std::error_code none;
-  const auto size = fs::file_size(participant_->path(job.recording), none);
+  const auto size = fs::file_size(to_path(participant_->path(job.recording)), none);
   if (!none) bytes_read_ += size;
   return job;
 }

@@ -11,6 +11,7 @@
 
 #include "assets/canvas.h"
 #include "assets/meshes.h"
+#include "files/names.h"
 #include "lab/drawing.h"
 #include "lab/study_numbers.h"
 
@@ -67,7 +68,7 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
     const assets::NamedMesh named = assets::load_mesh(
         options_.mesh.empty() ? assets::mesh_spec(options_.shapes, name) : options_.mesh, monitor_);
     shape.target.emplace(assets::make_target(named, {}, monitor_));
-    if (study_) shape.study = study_->find(std::filesystem::path(name).stem().string());
+    if (study_) shape.study = study_->find(file_stem(name));
     if (shape.study != nullptr) {
       const TargetShape& published = *shape.study->shape;
       require_fits(published, named.mesh);

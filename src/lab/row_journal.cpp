@@ -7,6 +7,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::lab {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::chrono::milliseconds kRecordEvery{500};
 
 std::size_t size_of(const std::string& path) {
   std::error_code none;
-  const auto size = fs::file_size(path, none);
+  const auto size = fs::file_size(to_path(path), none);
   return none ? 0 : static_cast<std::size_t>(size);
 }
 
@@ -31,11 +32,11 @@ bool begins_with(const std::string& path, const std::string& heading) {
 RowJournal::RowJournal(const std::string& folder, const std::string& settings,
                        const std::string& heading)
     : lock_(OutputLock::of_folder(folder)) {
-  const auto in_folder = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  const auto in_folder = [&](const char* name) { return join_path(folder, name); };
   const std::string csv_path = in_folder("rows.csv"), json_path = in_folder("rows.jsonl"),
                     journal_path = in_folder("rows.journal");
   std::size_t journal_bytes = 0, csv_bytes = 0, json_bytes = 0;
-  if (fs::exists(journal_path)) {
+  if (fs::exists(to_path(journal_path))) {
     const std::string text = read_file(journal_path, Accept::regular);
     const std::size_t end = text.find('\n');
     if (end != std::string::npos && text.substr(0, end) != settings)
@@ -64,7 +65,7 @@ RowJournal::RowJournal(const std::string& folder, const std::string& settings,
                   folder +
                       ": holds rows with other columns, of another version; give another --out, "
                       "or remove rows.csv, rows.jsonl and rows.journal");
-  } else if (fs::exists(csv_path) || fs::exists(json_path)) {
+  } else if (fs::exists(to_path(csv_path)) || fs::exists(to_path(json_path))) {
     throw Error(ErrorKind::invalid_input,
                 folder + ": holds rows of another program; give another --out");
   }

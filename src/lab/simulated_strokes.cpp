@@ -15,6 +15,7 @@
 #include "assets/canvas.h"
 #include "assets/meshes.h"
 #include "assets/target_curves.h"
+#include "files/names.h"
 #include "lab/simulated_drawing.h"
 #include "lab/study_shapes.h"
 
@@ -28,8 +29,7 @@ struct Task {
 
 Task published_curves(const SimulatedStrokesOptions& options, const assets::NamedMesh& named) {
   const TargetSet set = assets::load_targets(options.targets);
-  const std::string wanted =
-      options.shape.empty() ? std::filesystem::path(named.name).stem().string() : options.shape;
+  const std::string wanted = options.shape.empty() ? file_stem(named.name) : options.shape;
   const TargetShape& shape = assets::find_target_shape(set, wanted, options.targets);
   require_fits(shape, named.mesh);
   Task task{{}, shape.scale};

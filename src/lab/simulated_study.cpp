@@ -10,6 +10,7 @@
 #include <mimicry/study/simulate.h>
 
 #include "assets/canvas.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "lab/participant_folder.h"
 #include "lab/simulated_drawing.h"
@@ -44,7 +45,7 @@ std::vector<Method> methods_of(const std::vector<std::string>& names) {
 std::string folder_of(const SimulatedStudyOptions& options, Index number) {
   char name[32];
   std::snprintf(name, sizeof name, "p%02d", static_cast<int>(number));
-  return (std::filesystem::path(options.out) / name).string();
+  return join_path(options.out, name);
 }
 
 // Each stroke of a study begins so much after the one before; no stroke takes as long.
