@@ -16,7 +16,7 @@
 #include "files/environment.h"
 #include "files/file.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ void BakeCache::keep(const Embedding& e) const {
   shrink(folder_, most_bytes_);
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -7,9 +7,9 @@
 
 #include "files/file.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 
-TargetSet load_targets(const std::string& path) {
+TargetSet load_target_curves(const std::string& path) {
   return read_targets(read_file(path), std::filesystem::path(path).filename().string());
 }
 
@@ -22,4 +22,4 @@ const TargetShape& find_target_shape(const TargetSet& set, const std::string& na
               file + ": has no shape '" + name + "', only " + names + "; name one with --shape");
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry
