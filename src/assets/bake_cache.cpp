@@ -17,7 +17,7 @@
 #include "files/file.h"
 #include "files/names.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ void BakeCache::keep(const Embedding& e) const {
   shrink(folder_, most_bytes_);
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::assets {
+namespace mimicry {
 
 /// Bakes that were made before, as .mimicry files in one folder, found by the mesh's content and
 /// the bake's options. Nothing depends on it: a file that is damaged, of another version or of
@@ -36,4 +36,4 @@ class BakeCache {
   std::uintmax_t most_bytes_ = 0;
 };
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -8,10 +8,11 @@
 #include <mimicry/io/embedding_file.h>
 
 #include "assets/bake_cache.h"
+#include "assets/work.h"
 #include "files/file.h"
 #include "files/names.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 
 Baked bake_mesh(const TriangleMesh& mesh, const BakeSettings& settings, const Monitor& monitor,
                 const ProgressCallback& stages) {
@@ -39,13 +40,13 @@ bool is_embedding_file(const std::string& spec) {
   return to_path(spec).extension() == ".mimicry";
 }
 
-LoadedProjector::LoadedProjector(Embedding embedding, const std::string& name) {
+SmoothProjector make_projector(Embedding embedding, const std::string& name) {
   try {
-    target_ = std::make_unique<Target>(mesh_of(embedding));
-    projector_ = std::make_unique<SmoothProjector>(std::move(embedding), *target_);
+    const Target target(mesh_of(embedding));
+    return {std::move(embedding), target};
   } catch (const Error& error) {
     throw Error(error.kind(), name + ": " + error.what());
   }
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -3,12 +3,27 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include <mimicry/base/error.h>
 
-#include "files/names.h"
+namespace mimicry {
+namespace {
 
-namespace mimicry::assets {
+SmoothProjector projector_of(const Target& target, const std::string& embedding_file,
+                             const BakeSettings& settings, const Monitor& monitor) {
+  if (embedding_file.empty())
+    return {bake_mesh(target.mesh(), settings, monitor).embedding, target};
+  Embedding embedding = load_embedding(embedding_file);
+  try {
+    return {std::move(embedding), target};
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                std::filesystem::path(embedding_file).filename().string() + ": " + error.what());
+  }
+}
+
+}  // namespace
 
 std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::string>& names) {
   bool all = names.empty();
@@ -24,28 +39,23 @@ std::vector<const TechniqueInfo*> chosen_techniques(const std::vector<std::strin
   return chosen;
 }
 
-PreparedCanvas::PreparedCanvas(const Target& target,
-                               std::span<const TechniqueInfo* const> techniques,
-                               const Monitor& monitor, const std::string& embedding_file,
-                               const BakeSettings& settings) {
-  canvas_.target = target;
-  if (std::none_of(techniques.begin(), techniques.end(),
-                   [](const auto* info) { return info->needs_bake; }))
-    return;
-  canvas_.projector = projector_of(target, embedding_file, settings, monitor);
+Canvas make_canvas(const Target& target, std::span<const TechniqueInfo* const> techniques,
+                   const Monitor& monitor, const std::string& embedding_file,
+                   const BakeSettings& settings) {
+  Canvas canvas{target};
+  if (std::any_of(techniques.begin(), techniques.end(),
+                  [](const auto* info) { return info->needs_bake; }))
+    canvas.projector = projector_of(target, embedding_file, settings, monitor);
+  return canvas;
 }
 
-SmoothProjector PreparedCanvas::projector_of(const Target& target,
-                                             const std::string& embedding_file,
-                                             const BakeSettings& settings, const Monitor& monitor) {
-  if (embedding_file.empty())
-    return {bake_mesh(target.mesh(), settings, monitor).embedding, target};
-  Embedding embedding = load_embedding(embedding_file);
-  try {
-    return {std::move(embedding), target};
-  } catch (const Error& error) {
-    throw Error(error.kind(), file_name(embedding_file) + ": " + error.what());
-  }
+Canvas load_canvas(const std::string& spec, const TechniqueInfo& technique,
+                   const Monitor& monitor) {
+  const NamedMesh named = load_mesh(spec, monitor);
+  const TechniqueInfo* only[] = {&technique};
+  Canvas canvas = make_canvas(make_target(named, {}, monitor), only, monitor);
+  canvas.metres_per_unit = named.metres_per_unit;
+  return canvas;
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -17,7 +17,7 @@
 #include "files/names.h"
 #include "io/number.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 namespace {
 
 constexpr std::string_view kShapePrefix = "shape:";
@@ -111,4 +111,8 @@ Target make_target(const NamedMesh& named, const TargetOptions& options, const M
   }
 }
 
-}  // namespace mimicry::assets
+Target load_target(const std::string& spec, const Monitor& monitor) {
+  return make_target(load_mesh(spec, monitor), {}, monitor);
+}
+
+}  // namespace mimicry

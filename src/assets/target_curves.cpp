@@ -8,10 +8,10 @@
 #include "files/file.h"
 #include "files/names.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 
-TargetSet load_targets(const std::string& path) {
-  return read_targets(read_file(path), file_name(path));
+TargetSet load_target_curves(const std::string& path) {
+  return read_targets(read_file(path), std::filesystem::path(path).filename().string());
 }
 
 const TargetShape& find_target_shape(const TargetSet& set, const std::string& name,
@@ -23,4 +23,4 @@ const TargetShape& find_target_shape(const TargetSet& set, const std::string& na
               file + ": has no shape '" + name + "', only " + names + "; name one with --shape");
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

@@ -6,7 +6,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 
-namespace mimicry::assets {
+namespace mimicry {
 
 void Monitor::tell(const std::string& sentence) const {
   if (note) note(sentence);
@@ -27,4 +27,4 @@ int thread_count(int threads) {
   return std::clamp(threads > 0 ? threads : hardware, 1, kMostThreads);
 }
 
-}  // namespace mimicry::assets
+}  // namespace mimicry

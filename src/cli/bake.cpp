@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/io/embedding_file.h>
 
-#include "assets/bakes.h"
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -21,7 +20,7 @@ namespace {
 struct BakeArguments {
   std::string mesh;
   std::string out;
-  assets::BakeSettings bake;
+  BakeSettings bake;
   TargetOptions target;
 };
 
@@ -59,14 +58,14 @@ std::string kind_of_shell(const BakeQuality& q) {
 
 void run_bake(const BakeArguments& args) {
   const auto output_lock = OutputLock::of_file(args.out);
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
-  const Target target = assets::make_target(named, args.target, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   StageTimes times;
-  const assets::Baked baked = assets::bake_mesh(target.mesh(), args.bake, terminal_monitor(),
-                                                [&](const Progress& progress) {
-                                                  times.enter(progress.stage);
-                                                  return true;
-                                                });
+  const Baked baked =
+      bake_mesh(target.mesh(), args.bake, terminal_monitor(), [&](const Progress& progress) {
+        times.enter(progress.stage);
+        return true;
+      });
   const Embedding& embedding = baked.embedding;
   write_file_atomically(args.out, write_embedding(embedding));
   const BakeQuality& q = embedding.quality;

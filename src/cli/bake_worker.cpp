@@ -77,7 +77,7 @@ std::string_view mesh_bytes() {
   return {static_cast<const char*>(at), size};
 }
 
-Embedding baked(const WorkerArguments& args, const assets::BakeCache& kept, bool& is_new) {
+Embedding baked(const WorkerArguments& args, const BakeCache& kept, bool& is_new) {
   tell({{"stage", "reading"}, {"fraction", 0.0}});
   MeshReadOptions limits;
   limits.max_faces = args.faces;
@@ -97,7 +97,7 @@ Embedding baked(const WorkerArguments& args, const assets::BakeCache& kept, bool
 }
 
 void work(const WorkerArguments& args) {
-  const assets::BakeCache kept(args.keep, args.keep_bytes);
+  const BakeCache kept(args.keep, args.keep_bytes);
   bool is_new = false;
   const Embedding made = baked(args, kept, is_new);
   if (!write_all(kResult, write_embedding(made))) throw std::bad_alloc();

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <optional>
 
+#include <mimicry/assets/canvas.h>
+
 #include "cli/interrupt.h"
 #include "cli/system.h"
 
@@ -89,14 +91,14 @@ void ProgressLine::update(std::size_t done, std::size_t total) {
   std::fflush(stderr);
 }
 
-assets::Monitor terminal_monitor() {
+Monitor terminal_monitor() {
   struct Line {
     std::mutex mutex;
     std::string work;
     std::optional<ProgressLine> shown;
   };
   const auto line = std::make_shared<Line>();
-  assets::Monitor monitor;
+  Monitor monitor;
   monitor.note = [](const std::string& sentence) { complain(sentence); };
   monitor.cancelled = end_requested;
   monitor.progress = [line](std::string_view work, double fraction) {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "assets/work.h"
+#include <mimicry/assets/canvas.h>
 
 namespace mimicry::cli {
 
@@ -46,6 +46,6 @@ class ProgressLine {
 
 /// What libraries tell while they work: notes as complaints, progress on a line that stands as long
 /// as the monitor and its copies do. Signals cancel the work.
-assets::Monitor terminal_monitor();
+Monitor terminal_monitor();
 
 }  // namespace mimicry::cli

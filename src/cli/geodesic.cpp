@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exact.h>
 
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -145,8 +145,8 @@ void check_out(const GeodesicArguments& args) {
 }
 
 void run_geodesic(const GeodesicArguments& args, int& status) {
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
-  const Target target = assets::make_target(named, args.target, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   std::vector<Source> sources;
   for (const std::string& text : args.from)
     for (const SurfacePoint& p : parse_points(text, target)) sources.push_back({p});

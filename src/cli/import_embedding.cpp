@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>
 
 #include "assets/bakes.h"
-#include "assets/meshes.h"
 #include "bake/quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -32,7 +32,7 @@ EmbeddingText read(const std::string& file, int corners) {
 }
 
 // The vertices' places as the mesh's own file has them, so that the embedding is that mesh's.
-void take_positions(Embedding& e, const assets::NamedMesh& named) {
+void take_positions(Embedding& e, const NamedMesh& named) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::invalid_input,
                 named.name + ": " + what + "; give the mesh that the embedding was made of");
@@ -53,11 +53,11 @@ void take_positions(Embedding& e, const assets::NamedMesh& named) {
 
 void run_import_embedding(const ImportEmbeddingArguments& args) {
   Embedding e = make_embedding(read(args.surface, 3), read(args.shell, 4));
-  if (!args.mesh.empty()) take_positions(e, assets::load_mesh(args.mesh, terminal_monitor()));
+  if (!args.mesh.empty()) take_positions(e, load_mesh(args.mesh, terminal_monitor()));
   const Eigen::Map<const Values> values(e.values.data(), e.vertex_count(), e.dimension);
   e.quality.sliver_percent = sliver_percent(e.tets, values);
   // All that is refused is refused before the file is written.
-  const assets::LoadedProjector projector(e, file_name(args.surface));
+  make_projector(e, std::filesystem::path(args.surface).filename().string());
   write_file_atomically(args.out, write_embedding(e));
   std::printf("%s: %d vertices, %d faces; shell of %d vertices, %zu tetrahedra; slivers %s %%\n",
               args.out.c_str(), e.mesh_vertex_count, e.face_count(), e.vertex_count(),

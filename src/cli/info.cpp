@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/validation.h>
 
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -169,13 +169,13 @@ void print_report(const std::string& name, const MeshReport& r, const MeshReport
 }
 
 void run_info(const InfoArguments& args, int& status) {
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
   const Connected connected = connect(named.mesh, {.join = args.target.join});
   const MeshReport surface = validate(connected.mesh);
   const MeshReport report = report_as_drawn(named.mesh, surface);
   std::string refusal;
   try {
-    (void)assets::make_target(named, args.target);
+    (void)make_target(named, args.target);
   } catch (const Error& error) {
     refusal = error.what();
     status = kBadInput;

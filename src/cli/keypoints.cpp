@@ -6,9 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/study/targets.h>
 
-#include "assets/meshes.h"
 #include "assets/target_curves.h"
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -28,11 +29,12 @@ struct KeypointsArguments {
 };
 
 void run_keypoints(const KeypointsArguments& args) {
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
-  const Target target = assets::make_target(named, args.target, terminal_monitor());
-  const TargetSet set = assets::load_targets(args.targets);
-  const std::string wanted = args.shape.empty() ? file_stem(named.name) : args.shape;
-  const TargetShape& shape = assets::find_target_shape(set, wanted, args.targets);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
+  const TargetSet set = load_target_curves(args.targets);
+  const std::string wanted =
+      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
+  const TargetShape& shape = find_target_shape(set, wanted, args.targets);
   require_fits(shape, named.mesh);
   const double scale = args.scale > 0.0 ? args.scale : shape.scale;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/parallel.h>
 
 #include "cli/console.h"
@@ -27,7 +28,7 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->capture_default_str();
 }
 
-void add_cache_option(CLI::App& command, assets::BakeSettings& settings) {
+void add_cache_option(CLI::App& command, BakeSettings& settings) {
   command.add_flag("!--no-cache", settings.use_cache,
                    "Bake anew and keep nothing (bakes are kept in MIMICRY_CACHE, "
                    "XDG_CACHE_HOME/mimicry or ~/.cache/mimicry)");

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/spatial/target.h>
 
-#include "assets/bakes.h"
 #include "lab/study_shapes.h"
 
 namespace mimicry::cli {
@@ -20,7 +20,7 @@ CLI::Validator number_between(double lowest, double highest);
 /// --threads.
 void add_threads_option(CLI::App& command, int& threads);
 /// --no-cache.
-void add_cache_option(CLI::App& command, assets::BakeSettings& settings);
+void add_cache_option(CLI::App& command, BakeSettings& settings);
 /// --no-join, --strict and the former --allow-nonmanifold, which says that it is not needed.
 void add_target_options(CLI::App& command, TargetOptions& options);
 /// --shapes, --targets and --only.

@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/session/stroke_session.h>
 
 #include "assets/canvas.h"
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -38,7 +39,7 @@ struct ProjectArguments {
   std::vector<std::string> formats = {"json", "obj", "csv", "glb", "ply"};
   std::string misses = "connect";
   std::string embedding;  // file; empty: baked when needed
-  assets::BakeSettings bake;
+  BakeSettings bake;
   std::string beside;  // a second strokes file, for the table only
   std::string obj_lines = "segments";
   std::string curves_as = "tubes";
@@ -108,7 +109,7 @@ std::vector<Vec3> world_points(const std::vector<std::vector<Vec3>>& parts,
 }
 
 /// Why the stroke cannot have been made for this mesh; empty where it can.
-std::string misfit(const Stroke& stroke, const assets::NamedMesh& named) {
+std::string misfit(const Stroke& stroke, const NamedMesh& named) {
   if (!stroke.intended) return "";
   for (const SurfacePoint& p : stroke.intended->points)
     if (p.face >= named.mesh.face_count())
@@ -119,7 +120,7 @@ std::string misfit(const Stroke& stroke, const assets::NamedMesh& named) {
 }
 
 // Those that can be projected on this mesh; throws where none is left.
-std::vector<Stroke> fitting_strokes(std::vector<Stroke> strokes, const assets::NamedMesh& named,
+std::vector<Stroke> fitting_strokes(std::vector<Stroke> strokes, const NamedMesh& named,
                                     int& status) {
   std::vector<Stroke> fitting;
   std::vector<std::string> misfits;
@@ -149,20 +150,15 @@ std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh
 CurveRecord draw(const Canvas& canvas, const TechniqueInfo& info, const Stroke& stroke,
                  const SessionOptions& options, TechniqueRow& row) {
   const Target& target = canvas.target;
-  SessionOptions sized = options;
-  sized.expected_frames = stroke.frames.size();
-  StrokeSession session(canvas, info, sized);
   const auto start = std::chrono::steady_clock::now();
-  session.begin(stroke.model_to_world);
-  for (const Frame& frame : stroke.frames) session.add(frame);
-  session.end();
+  ProjectedStroke drawn = mimicry::project(canvas, info, stroke, options);
   row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  const ProjectedCurve& curve = session.curve();
+  const ProjectedCurve& curve = drawn.curve;
   row.frames += stroke.frames.size();
   row.points += curve.points.size();
-  row.missed += static_cast<std::size_t>(session.counts()[FrameStatus::missed]);
-  row.strokes.push_back({stroke.id, curve.points.size(), session.answers()});
+  row.missed += static_cast<std::size_t>(drawn.counts[FrameStatus::missed]);
+  row.strokes.push_back({stroke.id, curve.points.size(), drawn.answers});
   row.measures.add(target, stroke, curve);
   row.length_m += stroke.model_to_world.scale * length(curve);
   if (stroke.intended && !stroke.intended->points.empty() && !curve.points.empty()) {
@@ -171,17 +167,7 @@ CurveRecord draw(const Canvas& canvas, const TechniqueInfo& info, const Stroke& 
         intended_world_points(stroke, target.mesh()));
     ++row.distances;
   }
-  CurveRecord record;
-  record.stroke = stroke.id;
-  record.technique = std::string(info.name);
-  for (const OptionInfo& o : info.options) {
-    if (!is_listed(info, o, options.technique)) continue;
-    const auto values = option_value(info, o, options.technique);
-    record.options[o.name] = {values.begin(), values.end()};
-  }
-  record.model_to_world = stroke.model_to_world;
-  record.curve = curve;
-  return record;
+  return curve_record(stroke, info, std::move(drawn.curve), options.technique);
 }
 
 std::array<unsigned char, 3> color_of(const std::string& technique) {
@@ -221,14 +207,14 @@ std::vector<double> radii_of(const Stroke& stroke, const ProjectedCurve& curve,
 }
 
 void run_project(const ProjectArguments& args, int& status) {
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
-  const Target target = assets::make_target(named, args.target, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   const std::vector<Stroke> strokes =
       fitting_strokes(load_strokes(args.strokes, status), named, status);
   std::vector<Stroke> beside;
   if (!args.beside.empty())
     beside = fitting_strokes(load_strokes(args.beside, status), named, status);
-  auto chosen = assets::chosen_techniques(args.techniques);
+  auto chosen = chosen_techniques(args.techniques);
   if (!strokes.empty())
     std::erase_if(chosen, [&](const TechniqueInfo* info) {
       return std::none_of(strokes.begin(), strokes.end(),
@@ -243,8 +229,7 @@ void run_project(const ProjectArguments& args, int& status) {
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
   const auto output_lock = OutputLock::of_folder(args.out);
-  const assets::PreparedCanvas prepared(target, chosen, terminal_monitor(), args.embedding,
-                                        args.bake);
+  const Canvas canvas = make_canvas(target, chosen, terminal_monitor(), args.embedding, args.bake);
 
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
   CurveSet set{named.name, {}};
@@ -256,13 +241,13 @@ void run_project(const ProjectArguments& args, int& status) {
       rows.push_back({.technique = info});
       for (const Stroke& stroke : strokes) {
         if (!draws(*info, stroke, args)) continue;
-        CurveRecord record = draw(prepared.canvas(), *info, stroke, options, rows.back());
+        CurveRecord record = draw(canvas, *info, stroke, options, rows.back());
         if (args.tube_width == "pressure") record.radii = radii_of(stroke, record.curve, radius);
         set.curves.push_back(std::move(record));
       }
       TechniqueRow other;
       for (const Stroke& stroke : beside)
-        if (draws(*info, stroke, args)) draw(prepared.canvas(), *info, stroke, options, other);
+        if (draws(*info, stroke, args)) draw(canvas, *info, stroke, options, other);
       rows.back().beside = other.measures;
       progress.update(rows.size(), chosen.size());
     }

@@ -9,10 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
 #include "assets/bakes.h"
-#include "assets/meshes.h"
+#include "assets/work.h"
 #include "bake/projection_quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -53,7 +54,7 @@ constexpr PaperRow kPaper[] = {
 
 struct QualityArguments {
   std::vector<std::string> inputs;
-  assets::BakeSettings bake;
+  BakeSettings bake;
   bool csv = false, json = false;
   TargetOptions target;
 };
@@ -84,14 +85,14 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   QualityRow row;
   row.paper = paper_row(spec);
   Embedding e;
-  if (assets::is_embedding_file(spec)) {
-    row.name = file_name(spec);
-    e = assets::load_embedding(spec);
+  if (is_embedding_file(spec)) {
+    row.name = std::filesystem::path(spec).filename().string();
+    e = load_embedding(spec);
   } else {
-    const assets::NamedMesh named = assets::load_mesh(spec, terminal_monitor());
+    const NamedMesh named = load_mesh(spec, terminal_monitor());
     row.name = spec.starts_with("shape:") ? spec : named.name;
-    const Target target = assets::make_target(named, args.target, terminal_monitor());
-    assets::Baked baked = assets::bake_mesh(target.mesh(), args.bake, terminal_monitor());
+    const Target target = make_target(named, args.target, terminal_monitor());
+    Baked baked = bake_mesh(target.mesh(), args.bake, terminal_monitor());
     row.was_kept = baked.was_kept;
     e = std::move(baked.embedding);
   }
@@ -100,9 +101,9 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   row.shell_vertices = e.vertex_count();
   row.tetrahedra = e.tets.size();
   row.bake = e.quality;
-  const assets::LoadedProjector projector(std::move(e), row.name);
+  const SmoothProjector projector = make_projector(std::move(e), row.name);
   ProgressLine line("measuring " + row.name);
-  row.projection = projection_quality(*projector, executor, [&](const Progress& now) {
+  row.projection = projection_quality(projector, executor, [&](const Progress& now) {
     line.update(static_cast<std::size_t>(100 * now.fraction), 100);
     return true;
   });
@@ -222,7 +223,7 @@ Json row_json(const QualityRow& row) {
 
 // What cannot be measured is named and left out; where that is all, it is an error.
 std::vector<QualityRow> measure_all(const QualityArguments& args) {
-  Executor executor(assets::thread_count(args.bake.threads));
+  Executor executor(thread_count(args.bake.threads));
   std::vector<QualityRow> rows;
   std::vector<Error> errors;
   for (const std::string& spec : args.inputs) {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/technique/technique.h>
 
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -168,7 +168,7 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const CurveSet& 
 }
 
 void run_render(const RenderArguments& args, int& status) {
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
   // Intended curves are on the surface, whose faces may be turned.
   const TriangleMesh drawn_on = connect(named.mesh).mesh;
   const double size = diagonal(drawn_on);

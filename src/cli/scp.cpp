@@ -7,10 +7,12 @@
 #include <system_error>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
 
 #include "assets/bakes.h"
+#include "assets/work.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -35,16 +37,16 @@ void run_scp(const ScpArguments& args, int& status) {
     throw Error(ErrorKind::invalid_input,
                 args.out + ": is what --points names, and would be lost; give another --out");
   const PointRows rows = read_points_csv(read_file(args.points), points_name);
-  const assets::LoadedProjector projector(assets::load_embedding(args.embedding),
-                                          file_name(args.embedding));
+  const SmoothProjector projector = make_projector(
+      load_embedding(args.embedding), std::filesystem::path(args.embedding).filename().string());
 
   std::vector<std::optional<SmoothPoint>> answers(rows.points.size());
-  Executor executor(assets::thread_count(args.threads));
+  Executor executor(thread_count(args.threads));
   executor.for_chunks(answers.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
     ScpHint hint;
     for (std::size_t i = begin; i < end; ++i)
       answers[i] =
-          projector->project(rows.points[i], {.replace_failed = args.replace_failed}, &hint);
+          projector.project(rows.points[i], {.replace_failed = args.replace_failed}, &hint);
   });
   write_file_atomically(args.out, write_smooth_points_csv(answers));
 

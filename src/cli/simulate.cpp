@@ -26,8 +26,7 @@ struct SimulateArguments {
 void run_simulate(SimulateArguments args) {
   const auto output_lock = OutputLock::of_file(args.out);
   args.strokes.z_up = args.up == "z";
-  if (!args.closed_loop.empty())
-    args.strokes.closed_loop = assets::chosen_techniques(args.closed_loop);
+  if (!args.closed_loop.empty()) args.strokes.closed_loop = chosen_techniques(args.closed_loop);
   const std::vector<Stroke> strokes = lab::simulated_strokes(args.strokes, terminal_monitor());
   write_file_atomically(args.out, write_strokes(strokes));
   std::size_t frames = 0;

@@ -1,14 +1,11 @@
 #include "cli/strokes_input.h"
 
-#include <filesystem>
 #include <utility>
 
-#include <mimicry/io/strokes.h>
+#include <mimicry/assets/files.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "files/file.h"
-#include "files/names.h"
 
 namespace mimicry::cli {
 
@@ -18,8 +15,7 @@ void tell_left_out(const std::string& what, int& status) {
 }
 
 std::vector<Stroke> load_strokes(const std::string& path, int& status) {
-  const std::string name = file_name(path);
-  StrokesFile file = read_strokes(read_file(path), name);
+  StrokesFile file = mimicry::load_strokes(path);
   for (const std::string& what : file.left_out) tell_left_out(what, status);
   return std::move(file.strokes);
 }

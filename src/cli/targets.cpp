@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/study.h>
 #include <mimicry/study/targets.h>
 
-#include "assets/canvas.h"
-#include "assets/meshes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/contact_sheet.h"
@@ -53,19 +52,19 @@ void run_targets(const TargetsArguments& args) {
   TargetSampling sampling = args.sampling;
   set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
   set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);
-  const assets::NamedMesh named = assets::load_mesh(args.mesh, terminal_monitor());
-  const Target target = assets::make_target(named, args.target, terminal_monitor());
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   const double scale = args.scale > 0.0 ? args.scale : named.metres_per_unit;
   // A technique that needs the bake stands for the splines, which do.
   const TechniqueInfo* needs = &find_technique("mimicry");
-  const assets::PreparedCanvas prepared(target, std::span(&needs, 1), terminal_monitor(),
-                                        args.embedding);
+  const Canvas canvas =
+      make_canvas(target, std::span(&needs, 1), terminal_monitor(), args.embedding);
 
   SampledTargets sampled;
   {
     ProgressLine line("sampling");
-    sampled = sample_targets(prepared.canvas().projector, scale, args.count, sampling,
-                             Random(args.seed), [&](const Progress& progress) {
+    sampled = sample_targets(canvas.projector, scale, args.count, sampling, Random(args.seed),
+                             [&](const Progress& progress) {
                                line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
                                return true;
                              });

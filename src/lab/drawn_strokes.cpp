@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <utility>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/io/study.h>
 
 #include "assets/meshes.h"
-#include "assets/target_curves.h"
 #include "files/file.h"
 #include "files/names.h"
 #include "io/number.h"
-#include "lab/drawing.h"
 #include "lab/participant_folder.h"
 #include "lab/replay_settings.h"
 #include "lab/study_numbers.h"
@@ -51,9 +51,9 @@ void add_replay_sources(const std::string& folder, StrokeSources& sources) {
   if (settings->misses == MissPolicy::split) sources.misses = settings->misses;
 }
 
-DrawnStrokes::DrawnStrokes(const StrokeSources& sources, const assets::Monitor& monitor)
+DrawnStrokes::DrawnStrokes(const StrokeSources& sources, const Monitor& monitor)
     : sources_(sources), monitor_(monitor) {
-  if (!sources.targets.empty()) targets_ = assets::load_targets(sources.targets);
+  if (!sources.targets.empty()) targets_ = load_target_curves(sources.targets);
 }
 
 DrawnStroke DrawnStrokes::find(const StudyRow& row) {
@@ -63,9 +63,9 @@ DrawnStroke DrawnStrokes::find(const StudyRow& row) {
 DrawnStrokes::Shape& DrawnStrokes::shape(const std::string& name) {
   Shape& entry = shapes_[name];
   if (!entry.target) {
-    const assets::NamedMesh named = assets::load_mesh(
-        sources_.mesh.empty() ? assets::mesh_spec(sources_.shapes, name) : sources_.mesh, monitor_);
-    entry.target = std::make_unique<Target>(assets::make_target(named, {}, monitor_));
+    const NamedMesh named = load_mesh(
+        sources_.mesh.empty() ? mesh_spec(sources_.shapes, name) : sources_.mesh, monitor_);
+    entry.target = std::make_unique<Target>(make_target(named, {}, monitor_));
   }
   return entry;
 }
@@ -144,8 +144,8 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   const TechniqueInfo& info = find_technique(row.method);
   const TechniqueInfo* only[] = {&info};
   auto& prepared = info.needs_bake ? on.baked : on.plain;
-  if (!prepared) prepared = std::make_unique<assets::PreparedCanvas>(*on.target, only, monitor_);
-  drawn.curve = draw_again(prepared->canvas(), info, drawn.stroke, sources_.misses).curve;
+  if (!prepared) prepared = make_canvas(*on.target, only, monitor_);
+  drawn.curve = project(*prepared, info, drawn.stroke, {.misses = sources_.misses}).curve;
   if (drawn.stroke.intended)
     for (const SurfacePoint& p : drawn.stroke.intended->points) {
       if (p.face >= drawn.target->mesh().face_count())

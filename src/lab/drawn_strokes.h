@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/session/stroke_session.h>
@@ -13,7 +14,6 @@
 #include <mimicry/study/recording.h>
 #include <mimicry/study/targets.h>
 
-#include "assets/canvas.h"
 #include "lab/study_rows.h"
 
 namespace mimicry::lab {
@@ -48,14 +48,14 @@ struct DrawnStroke {
 /// when they are first needed, and kept.
 class DrawnStrokes {
  public:
-  explicit DrawnStrokes(const StrokeSources& sources, const assets::Monitor& monitor = {});
+  explicit DrawnStrokes(const StrokeSources& sources, const Monitor& monitor = {});
   /// Throws Error saying what is not there. The target lives as long as this.
   DrawnStroke find(const StudyRow& row);
 
  private:
   struct Shape {
     std::unique_ptr<Target> target;
-    std::unique_ptr<assets::PreparedCanvas> plain, baked;
+    std::optional<Canvas> plain, baked;
   };
   Shape& shape(const std::string& name);
   std::string path_of(const StudyRow& row) const;
@@ -66,7 +66,7 @@ class DrawnStrokes {
   std::vector<Vec3> target_curve(const StudyRow& row, const TriangleMesh& mesh) const;
 
   StrokeSources sources_;
-  assets::Monitor monitor_;
+  Monitor monitor_;
   std::optional<TargetSet> targets_;
   std::map<std::string, Shape> shapes_;
   std::map<std::string, std::vector<RecordedStroke>> recordings_;

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/stroke/stroke.h>
 #include <mimicry/study/measures.h>
 
-#include "assets/work.h"
 #include "io/csv.h"
 
 namespace mimicry::lab {
@@ -68,8 +68,7 @@ std::string rejected_beside(const std::string& rows);
 /// Reads a table of measured strokes. One of an earlier version, with the column `repeat` and with
 /// methods and shapes by the study's numbers, comes with today's names, and the monitor hears of
 /// it; other columns are as they are. Throws Error(invalid_input) as `read_csv` does.
-CsvTable read_rows(std::string_view bytes, std::string_view name,
-                   const assets::Monitor& monitor = {});
+CsvTable read_rows(std::string_view bytes, std::string_view name, const Monitor& monitor = {});
 
 /// "mimicry 0.1.0 seed 1"; empty for a stroke that is not simulated.
 std::string simulation_text(const std::optional<Simulation>& simulated);

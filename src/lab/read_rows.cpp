@@ -2,6 +2,8 @@
 #include <optional>
 #include <utility>
 
+#include <mimicry/assets/canvas.h>
+
 #include "io/number.h"
 #include "lab/columns.h"
 #include "lab/measured_rows.h"
@@ -49,7 +51,7 @@ void add_recordings(CsvTable& table) {
 
 }  // namespace
 
-CsvTable read_rows(std::string_view bytes, std::string_view name, const assets::Monitor& monitor) {
+CsvTable read_rows(std::string_view bytes, std::string_view name, const Monitor& monitor) {
   CsvTable table = read_csv(bytes, name);
   if (const auto at = table.find(kFormerRepetition); at && !table.find(column::kRepetition)) {
     table.columns[*at] = column::kRepetition;

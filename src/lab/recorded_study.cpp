@@ -6,11 +6,14 @@
 #include <mutex>
 #include <optional>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 
 #include "assets/meshes.h"
 #include "assets/target_curves.h"
+#include "assets/work.h"
 #include "lab/participant_folder.h"
 #include "lab/study_numbers.h"
 #include "lab/study_shapes.h"
@@ -39,12 +42,11 @@ struct Outcome {
 };
 
 void load_shape(MeasuredShape& shape, const RecordedStudyOptions& options, const TargetSet& set,
-                const assets::Monitor& monitor) {
+                const Monitor& monitor) {
   try {
-    const assets::NamedMesh named =
-        assets::load_mesh(assets::find_mesh_file(options.shapes, shape.name), monitor);
-    shape.target.emplace(assets::make_target(named, {}, monitor));
-    shape.curves = assets::find_target_shape(set, shape.name, source_name(options.targets));
+    const NamedMesh named = load_mesh(find_mesh_file(options.shapes, shape.name), monitor);
+    shape.target.emplace(make_target(named, {}, monitor));
+    shape.curves = find_target_shape(set, shape.name, source_name(options.targets));
     require_fits(shape.curves, named.mesh);
     for (TargetCurve& curve : shape.curves.curves)
       curve = with_keypoints(std::move(curve), *shape.target, shape.curves.scale);
@@ -56,8 +58,8 @@ void load_shape(MeasuredShape& shape, const RecordedStudyOptions& options, const
 
 std::map<Index, MeasuredShape> load_shapes(const std::vector<ParticipantFolder>& participants,
                                            const RecordedStudyOptions& options,
-                                           const assets::Monitor& monitor) {
-  const TargetSet set = assets::load_targets(options.targets);
+                                           const Monitor& monitor) {
+  const TargetSet set = load_target_curves(options.targets);
   std::map<Index, MeasuredShape> shapes;
   for (const ParticipantFolder& participant : participants)
     for (const Index number : participant.sequence().shapes) {
@@ -191,8 +193,7 @@ class Recording {
 
 }  // namespace
 
-RecordedStudy measure_recordings(const RecordedStudyOptions& options,
-                                 const assets::Monitor& monitor) {
+RecordedStudy measure_recordings(const RecordedStudyOptions& options, const Monitor& monitor) {
   RecordedStudy study;
   std::vector<ParticipantFolder> participants;
   for (const std::string& folder : options.participants) try {
@@ -212,7 +213,7 @@ RecordedStudy measure_recordings(const RecordedStudyOptions& options,
   std::vector<Outcome> outcomes(jobs.size());
   std::mutex lock;
   std::size_t done = 0;
-  parallel_for(jobs.size(), assets::thread_count(options.threads), [&](std::size_t i) {
+  parallel_for(jobs.size(), thread_count(options.threads), [&](std::size_t i) {
     outcomes[i] = Recording(jobs[i], shapes.at(jobs[i].recording.shape), options).run();
     const std::lock_guard guard(lock);
     monitor.report("measuring", ++done, jobs.size());

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/work.h"
+#include <mimicry/assets/canvas.h>
+
 #include "lab/measured_rows.h"
 
 namespace mimicry::lab {
@@ -28,7 +29,6 @@ struct RecordedStudy {
 /// Measures the recorded curves as they are. The monitor hears of files that hold the strokes of
 /// another method than their name says. Throws Error where the target curves cannot be read.
 /// About 1 ms a stroke.
-RecordedStudy measure_recordings(const RecordedStudyOptions& options,
-                                 const assets::Monitor& monitor = {});
+RecordedStudy measure_recordings(const RecordedStudyOptions& options, const Monitor& monitor = {});
 
 }  // namespace mimicry::lab

@@ -1,5 +1,8 @@
 #include "lab/replay.h"
 
+#include <mimicry/assets/canvas.h>
+
+#include "assets/work.h"
 #include "base/ordered_work.h"
 #include "lab/replay_settings.h"
 #include "lab/replay_source.h"
@@ -8,7 +11,7 @@
 
 namespace mimicry::lab {
 
-ReplayResult replay_strokes(const ReplayOptions& options, const assets::Monitor& monitor) {
+ReplayResult replay_strokes(const ReplayOptions& options, const Monitor& monitor) {
   const Replayer replayer(options, monitor);
   ReplaySource source(options.strokes);
   const ReplaySettings settings = settings_of(options);
@@ -22,7 +25,7 @@ ReplayResult replay_strokes(const ReplayOptions& options, const assets::Monitor&
     monitor.tell(options.out + ": " + std::to_string(journal.rows()) +
                  " rows are there already; the rest follows");
 
-  const int threads = assets::thread_count(options.threads);
+  const int threads = thread_count(options.threads);
   // Results are small; a slow stroke must not make the others wait.
   const std::size_t most_ahead = 64 * static_cast<std::size_t>(threads);
   work_in_order(

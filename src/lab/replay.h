@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/technique/technique.h>
-
-#include "assets/work.h"
 
 namespace mimicry::lab {
 
@@ -34,6 +33,6 @@ struct ReplayResult {
 /// What cannot be measured gets a row with the reason, of which the monitor hears.
 /// Throws Error(invalid_input) where `out` holds the rows of another run, Error(io) where strokes
 /// are not there or another program writes to `out`.
-ReplayResult replay_strokes(const ReplayOptions& options, const assets::Monitor& monitor = {});
+ReplayResult replay_strokes(const ReplayOptions& options, const Monitor& monitor = {});
 
 }  // namespace mimicry::lab

@@ -4,15 +4,13 @@
 #include <filesystem>
 #include <utility>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/study/recording.h>
 #include <mimicry/study/targets.h>
 
-#include "assets/canvas.h"
 #include "assets/meshes.h"
-#include "files/names.h"
-#include "lab/drawing.h"
 #include "lab/study_numbers.h"
 
 namespace mimicry::lab {
@@ -45,12 +43,12 @@ void add(const MeasuredRow& row, ReplayRows& rows) {
 struct Replayer::Shape {
   std::string problem;
   std::optional<Target> target;
-  std::unique_ptr<assets::PreparedCanvas> canvas;
+  Canvas canvas;
   const StudyShape* study = nullptr;
   std::vector<IntendedCurve> curves;  // of the study's shape
 };
 
-Replayer::Replayer(const ReplayOptions& options, const assets::Monitor& monitor)
+Replayer::Replayer(const ReplayOptions& options, const Monitor& monitor)
     : options_(options), monitor_(monitor) {
   if (!options.targets.empty())
     study_.emplace(StudyShapeOptions{options.shapes, options.targets, {}});
@@ -65,10 +63,10 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
   auto made = std::make_unique<Shape>();
   Shape& shape = *made;
   try {
-    const assets::NamedMesh named = assets::load_mesh(
-        options_.mesh.empty() ? assets::mesh_spec(options_.shapes, name) : options_.mesh, monitor_);
-    shape.target.emplace(assets::make_target(named, {}, monitor_));
-    if (study_) shape.study = study_->find(file_stem(name));
+    const NamedMesh named = load_mesh(
+        options_.mesh.empty() ? mesh_spec(options_.shapes, name) : options_.mesh, monitor_);
+    shape.target.emplace(make_target(named, {}, monitor_));
+    if (study_) shape.study = study_->find(std::filesystem::path(name).stem().string());
     if (shape.study != nullptr) {
       const TargetShape& published = *shape.study->shape;
       require_fits(published, named.mesh);
@@ -77,8 +75,7 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
                                               with_keypoints(curve, *shape.target, published.scale),
                                               published.scale));
     }
-    shape.canvas =
-        std::make_unique<assets::PreparedCanvas>(*shape.target, options_.techniques, monitor_);
+    shape.canvas = make_canvas(*shape.target, options_.techniques, monitor_);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
     shape.problem = error.what();
@@ -104,7 +101,8 @@ void Replayer::replay_stroke(const Stroke& stroke, const Shape& shape,
     MeasuredRow row = unmeasured;
     name_method(row, *info);
     try {
-      const Drawing drawn = draw_again(shape.canvas->canvas(), *info, stroke, options_.misses);
+      const ProjectedStroke drawn =
+          project(shape.canvas, *info, stroke, {.misses = options_.misses});
       row.measures = measure(shape.target->surface(), intended, drawn.curve, motion);
       row.pieces = part_count(drawn.curve);
       row.frames = stroke.frames.size();

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/study/measures.h>
 
-#include "assets/work.h"
 #include "lab/measured_rows.h"
 #include "lab/replay.h"
 #include "lab/replay_source.h"
@@ -28,7 +28,7 @@ struct ReplayRows {
 /// of the options are not its business.
 class Replayer {
  public:
-  Replayer(const ReplayOptions& options, const assets::Monitor& monitor);
+  Replayer(const ReplayOptions& options, const Monitor& monitor);
   ~Replayer();
   ReplayRows run(const ReplayJob& job) const;
 
@@ -44,7 +44,7 @@ class Replayer {
   void reject(MeasuredRow row, const std::string& reason, ReplayRows& rows) const;
 
   ReplayOptions options_;
-  assets::Monitor monitor_;
+  Monitor monitor_;
   std::optional<StudyShapes> study_;
   mutable std::mutex lock_;
   mutable std::map<std::string, std::unique_ptr<Shape>> loaded_;

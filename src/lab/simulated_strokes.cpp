@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/simulate.h>
 #include <mimicry/study/targets.h>
 
-#include "assets/canvas.h"
-#include "assets/meshes.h"
 #include "assets/target_curves.h"
 #include "files/names.h"
 #include "lab/simulated_drawing.h"
@@ -27,10 +27,11 @@ struct Task {
   double metres_per_unit;
 };
 
-Task published_curves(const SimulatedStrokesOptions& options, const assets::NamedMesh& named) {
-  const TargetSet set = assets::load_targets(options.targets);
-  const std::string wanted = options.shape.empty() ? file_stem(named.name) : options.shape;
-  const TargetShape& shape = assets::find_target_shape(set, wanted, options.targets);
+Task published_curves(const SimulatedStrokesOptions& options, const NamedMesh& named) {
+  const TargetSet set = load_target_curves(options.targets);
+  const std::string wanted =
+      options.shape.empty() ? std::filesystem::path(named.name).stem().string() : options.shape;
+  const TargetShape& shape = find_target_shape(set, wanted, options.targets);
   require_fits(shape, named.mesh);
   Task task{{}, shape.scale};
   for (std::size_t i = 0; i < shape.curves.size(); ++i)
@@ -40,8 +41,7 @@ Task published_curves(const SimulatedStrokesOptions& options, const assets::Name
 
 // The curves are laid out in the shape's own coordinates: the mesh must be that shape, at any
 // resolution, not a scaled or moved one.
-void require_same_size(const assets::NamedMesh& named, const Target& target,
-                       const std::string& shape) {
+void require_same_size(const NamedMesh& named, const Target& target, const std::string& shape) {
   const Eigen::AlignedBox3d own = bounding_box(make_shape(shape));
   const double off = std::max((own.min() - target.bounding_box().min()).cwiseAbs().maxCoeff(),
                               (own.max() - target.bounding_box().max()).cwiseAbs().maxCoeff());
@@ -53,8 +53,7 @@ void require_same_size(const assets::NamedMesh& named, const Target& target,
                     ", or give --targets FILE with curves of this mesh");
 }
 
-Task task_of(const SimulatedStrokesOptions& options, const assets::NamedMesh& named,
-             const Target& target) {
+Task task_of(const SimulatedStrokesOptions& options, const NamedMesh& named, const Target& target) {
   if (!options.targets.empty()) return published_curves(options, named);
   const std::string shape = options.shape.empty() ? named.name : options.shape;
   const ShapeInfo* info = find_shape(shape);
@@ -102,15 +101,15 @@ bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) 
 }  // namespace
 
 std::vector<Stroke> simulated_strokes(const SimulatedStrokesOptions& options,
-                                      const assets::Monitor& monitor) {
-  const assets::NamedMesh named = assets::load_mesh(options.mesh, monitor);
-  const Target target = assets::make_target(named, options.target, monitor);
+                                      const Monitor& monitor) {
+  const NamedMesh named = load_mesh(options.mesh, monitor);
+  const Target target = make_target(named, options.target, monitor);
   const Task task = task_of(options, named, target);
   const double scale = options.scale > 0.0 ? options.scale : task.metres_per_unit;
   const Similarity placed = placement(target, scale, options.z_up);
   std::vector<const TechniqueInfo*> seen = options.closed_loop;
   if (seen.empty()) seen.push_back(nullptr);
-  const assets::PreparedCanvas prepared(target, options.closed_loop, monitor);
+  const Canvas canvas = make_canvas(target, options.closed_loop, monitor);
 
   std::vector<Stroke> strokes;
   std::size_t total = 0;
@@ -123,8 +122,7 @@ std::vector<Stroke> simulated_strokes(const SimulatedStrokesOptions& options,
       for (int k = 0; k < options.count; ++k) {
         // A curve's strokes stay the same when others are left out.
         const std::uint64_t number = 1000 * c + static_cast<std::uint64_t>(k);
-        strokes.push_back(
-            make_stroke(prepared.canvas(), task.curves[c], placed, options, number, technique));
+        strokes.push_back(make_stroke(canvas, task.curves[c], placed, options, number, technique));
         strokes.back().target = named.name;
         if (options.count > 1) strokes.back().id += "#" + std::to_string(k);
         if (seen.size() > 1) strokes.back().id += "@" + std::string(technique->name);

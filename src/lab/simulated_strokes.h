@@ -4,16 +4,15 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/spatial/target.h>
 #include <mimicry/stroke/stroke.h>
 #include <mimicry/technique/technique.h>
 
-#include "assets/work.h"
-
 namespace mimicry::lab {
 
 struct SimulatedStrokesOptions {
-  std::string mesh;     ///< as `assets::load_mesh` takes it
+  std::string mesh;     ///< as `load_mesh` takes it
   std::string targets;  ///< file of target curves; empty: a built-in shape's intended curves
   std::string shape;    ///< whose curves; empty: those of the mesh's name
   std::vector<std::string> curves;  ///< only these; empty: all
@@ -33,6 +32,6 @@ struct SimulatedStrokesOptions {
 /// simulated. Same options, same bits. Throws Error where mesh or curves cannot be had, or no curve
 /// is of a name that is asked for.
 std::vector<Stroke> simulated_strokes(const SimulatedStrokesOptions& options,
-                                      const assets::Monitor& monitor = {});
+                                      const Monitor& monitor = {});
 
 }  // namespace mimicry::lab

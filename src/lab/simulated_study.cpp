@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 #include <mimicry/study/simulate.h>
 
-#include "assets/canvas.h"
-#include "files/names.h"
+#include "assets/work.h"
 #include "files/output_lock.h"
 #include "lab/participant_folder.h"
 #include "lab/simulated_drawing.h"
@@ -84,7 +84,7 @@ RecordedStroke draw(const Canvas& canvas, const StudyShape& shape, const Method&
 
 // Everything that a participant draws on one shape.
 void draw_shape(const Canvas& canvas, const StudyShape& shape, std::size_t shape_at,
-                const Study& study, const Person& person, const assets::Monitor& monitor) {
+                const Study& study, const Person& person, const Monitor& monitor) {
   const StudySequence& sequence = person.sequence;
   for (const Method& method : study.methods) {
     const auto method_at = static_cast<std::size_t>(
@@ -122,7 +122,7 @@ std::vector<Person> people_of(const Study& study, const StudyShapes& shapes) {
 
 }  // namespace
 
-std::size_t simulate_study(const SimulatedStudyOptions& options, const assets::Monitor& monitor) {
+std::size_t simulate_study(const SimulatedStudyOptions& options, const Monitor& monitor) {
   const StudyShapes shapes(options.shapes);
   Study study{options, methods_of(options.techniques), {}, {}};
   const auto output_lock = OutputLock::of_folder(options.out);
@@ -130,16 +130,16 @@ std::size_t simulate_study(const SimulatedStudyOptions& options, const assets::M
   std::vector<const TechniqueInfo*> techniques;
   for (const Method& m : study.methods) techniques.push_back(m.technique);
 
-  Executor executor(assets::thread_count(options.threads));
+  Executor executor(thread_count(options.threads));
   const std::size_t count = study.people.size();
   std::size_t strokes = 0;
   for (std::size_t s = 0; s < shapes.list().size(); ++s) {
     const StudyShape& shape = shapes.list()[s];
     const Target target = shapes.load(shape, monitor);
-    const assets::PreparedCanvas prepared(target, techniques, monitor);
+    const Canvas canvas = make_canvas(target, techniques, monitor);
     std::atomic<std::size_t> done = 0;
     executor.for_chunks(count, 1, [&](std::size_t p, std::size_t, int worker) {
-      draw_shape(prepared.canvas(), shape, s, study, study.people[p], monitor);
+      draw_shape(canvas, shape, s, study, study.people[p], monitor);
       ++done;
       if (worker == 0) monitor.report("drawing", s * count + done, shapes.list().size() * count);
     });

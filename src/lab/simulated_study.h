@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "assets/work.h"
+#include <mimicry/assets/canvas.h>
+
 #include "lab/study_shapes.h"
 
 namespace mimicry::lab {
@@ -24,7 +25,6 @@ struct SimulatedStudyOptions {
 /// a folder with a sequence is whole. Returns the number of strokes. Same options, same bytes.
 /// Throws Error(invalid_input) for a technique or shape that does not exist or is named twice,
 /// Error(io) where files cannot be read or written, or another program writes there.
-std::size_t simulate_study(const SimulatedStudyOptions& options,
-                           const assets::Monitor& monitor = {});
+std::size_t simulate_study(const SimulatedStudyOptions& options, const Monitor& monitor = {});
 
 }  // namespace mimicry::lab

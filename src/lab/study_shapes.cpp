@@ -3,21 +3,21 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
 #include <mimicry/study/recording.h>
 #include <mimicry/study/targets.h>
 
 #include "assets/meshes.h"
-#include "assets/target_curves.h"
-#include "files/names.h"
 #include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace fs = std::filesystem;
 
 StudyShapes::StudyShapes(const StudyShapeOptions& options) : folder_(options.folder) {
-  const std::string file = file_name(options.targets);
-  set_ = assets::load_targets(options.targets);
+  const std::string file = fs::path(options.targets).filename().string();
+  set_ = load_target_curves(options.targets);
   for (const std::string& name : options.names)
     if (set_.find(name) == nullptr)
       throw Error(ErrorKind::invalid_input, file + ": has no shape '" + name + "'");
@@ -46,11 +46,10 @@ std::string StudyShapes::name(Index number) const {
   return std::string(shape_of_number(number));
 }
 
-Target StudyShapes::load(const StudyShape& shape, const assets::Monitor& monitor) const {
-  const assets::NamedMesh named =
-      assets::load_mesh(assets::mesh_spec(folder_, shape.shape->name), monitor);
+Target StudyShapes::load(const StudyShape& shape, const Monitor& monitor) const {
+  const NamedMesh named = load_mesh(mesh_spec(folder_, shape.shape->name), monitor);
   require_fits(*shape.shape, named.mesh);
-  return assets::make_target(named, {}, monitor);
+  return make_target(named, {}, monitor);
 }
 
 TargetCurve with_keypoints(TargetCurve curve, const Target& target, double metres_per_unit) {

@@ -3,11 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/types.h>
 #include <mimicry/spatial/target.h>
 #include <mimicry/study/targets.h>
-
-#include "assets/work.h"
 
 namespace mimicry::lab {
 
@@ -37,7 +36,7 @@ class StudyShapes {
   /// Of a shape of the list or of the study; empty for another number.
   std::string name(Index number) const;
   /// Throws Error where the mesh cannot be had or is not the one of the curves.
-  Target load(const StudyShape& shape, const assets::Monitor& monitor = {}) const;
+  Target load(const StudyShape& shape, const Monitor& monitor = {}) const;
 
  private:
   std::string folder_;

@@ -5,16 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
-#include "assets/bake_cache.h"
-#include "assets/bakes.h"
 #include "assets/canvas.h"
 #include "assets/meshes.h"
+#include "assets/work.h"
 #include "files/file.h"
 #include "support/folder.h"
 
-namespace mimicry::assets {
+namespace mimicry {
 namespace {
 
 std::string message_of(const auto& call) {
@@ -123,4 +123,4 @@ TEST(Monitors, MayBeEmptyAndEndTheWork) {
 }
 
 }  // namespace
-}  // namespace mimicry::assets
+}  // namespace mimicry

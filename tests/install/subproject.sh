@@ -8,7 +8,7 @@ cmake=$1 generator=$2 source=$3 folder=$4
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # shellcheck source=tests/install/programs.sh
 . "$here/programs.sh"
-rm -rf "$folder/app" "$folder/stage" "$folder/user"
+rm -rf "$folder/app" "$folder/stage" "$folder/user" "$folder/readme_cache"
 mkdir -p "$folder/app" "$folder/user"
 
 program_of cpp "$source/README.md" >"$folder/app/main.cpp"

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
 #include "lab/columns.h"
@@ -45,7 +46,7 @@ TEST(MeasuredRows, WhatIsWrittenIsReadByTheSameNames) {
   rejected.method = "mimicry";
   rejected.rejected = "the file\nis missing";
   std::vector<std::string> notes;
-  assets::Monitor monitor;
+  Monitor monitor;
   monitor.note = [&](const std::string& note) { notes.push_back(note); };
   const std::string table = rows_heading() + csv_row(full_row()) + csv_row(rejected);
   const StudyRows read(read_rows(table, "rows.csv", monitor), "rows.csv");
@@ -95,7 +96,7 @@ TEST(MeasuredRows, JsonHasTheColumnsInTheirOrder) {
 
 TEST(ReadRows, TablesOfMeasureOfEarlierVersions) {
   std::vector<std::string> notes;
-  assets::Monitor monitor;
+  Monitor monitor;
   monitor.note = [&](const std::string& note) { notes.push_back(note); };
   const StudyRows rows(read_rows("method,shape,index,curve,repeat,task,K_E,participant\n"
                                  "1,3,0,4,0,tracing,7,p1\n2,0,1,4,1,tracing,8,p1\n",

@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
 #include <mimicry/io/study.h>
 
-#include "assets/meshes.h"
 #include "files/file.h"
 #include "lab/drawn_strokes.h"
 #include "lab/measured_rows.h"
@@ -66,7 +66,7 @@ TEST(Replay, ARunThatWasCancelledGoesOnAndGivesTheSameBytes) {
   ASSERT_GE(whole.rows, 18u);
 
   std::atomic<int> asked = 0;
-  assets::Monitor monitor;
+  Monitor monitor;
   monitor.cancelled = [&] { return ++asked > 4; };
   std::string note;
   monitor.note = [&](const std::string& sentence) { note = sentence; };
@@ -165,7 +165,7 @@ TEST(RecordedStudy, MethodsAreCalledByTheirNames) {
   const SimulatedStudyOptions study = small_study(folder);
   simulate_study(study);
   std::filesystem::create_directories(folder.path("shapes"));
-  const assets::NamedMesh mesh = assets::load_mesh("shape:torus");
+  const NamedMesh mesh = load_mesh("shape:torus");
   RecordedStudyOptions options;
   options.participants = {folder.path("study/p00"), folder.path("nobody")};
   options.shapes = folder.path("shapes");

@@ -19,7 +19,7 @@ enum class MissPolicy : std::uint8_t {
 };
 
 struct SessionOptions {
-  TechniqueOptions technique;  ///< the defaults, or made for the technique
+  TechniqueOptions technique = {};  ///< the defaults, or made for the technique
   MissPolicy misses = MissPolicy::connect;
   /// A frame whose pen is nearer than this to the last inked frame's is passed over. World metres.
   double minimum_motion_m = 0.0;

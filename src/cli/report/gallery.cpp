@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
 #include "cli/console.h"
@@ -65,7 +66,7 @@ Gallery make_gallery(const lab::StudyRows& rows, const lab::Summary& summary,
                      const GalleryOptions& options) {
   Gallery gallery;
   if (options.count == 0) return gallery;
-  const assets::Monitor monitor = terminal_monitor();
+  const Monitor monitor = terminal_monitor();
   lab::DrawnStrokes strokes(options.sources, monitor);
   const std::vector<lab::StrokePick> picks =
       lab::pick_strokes(rows, summary, options.measure, options.count);
