@@ -7,6 +7,8 @@
 
 #include <mimicry/base/error.h>
 
+#include "files/names.h"
+
 namespace mimicry {
 namespace {
 
@@ -18,8 +20,7 @@ SmoothProjector projector_of(const Target& target, const std::string& embedding_
   try {
     return {std::move(embedding), target};
   } catch (const Error& error) {
-    throw Error(error.kind(),
-                std::filesystem::path(embedding_file).filename().string() + ": " + error.what());
+    throw Error(error.kind(), file_name(embedding_file) + ": " + error.what());
   }
 }
 

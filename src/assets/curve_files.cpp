@@ -7,6 +7,7 @@
 #include <mimicry/base/error.h>
 
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry {
 namespace {
@@ -27,7 +28,7 @@ Colors colors_of(const CurveSet& set) {
 }
 
 std::string curve_bytes(const std::string& path, const CurveSet& set, const TriangleMesh& mesh) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::string ending = to_text(to_path(path).extension());
   if (ending == ".json") return write_curves_json(set, mesh);
   if (ending == ".obj") return write_curves_obj(set, mesh);
   if (ending == ".csv") return write_curves_csv(set, mesh);

@@ -3,11 +3,12 @@
 #include <mimicry/assets/files.h>
 
 #include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry {
 
 StrokesFile load_strokes(const std::string& path) {
-  return read_strokes(read_file(path), std::filesystem::path(path).filename().string());
+  return read_strokes(read_file(path), file_name(path));
 }
 
 }  // namespace mimicry

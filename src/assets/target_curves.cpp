@@ -11,7 +11,7 @@
 namespace mimicry {
 
 TargetSet load_target_curves(const std::string& path) {
-  return read_targets(read_file(path), std::filesystem::path(path).filename().string());
+  return read_targets(read_file(path), file_name(path));
 }
 
 const TargetShape& find_target_shape(const TargetSet& set, const std::string& name,

@@ -57,7 +57,7 @@ void run_import_embedding(const ImportEmbeddingArguments& args) {
   const Eigen::Map<const Values> values(e.values.data(), e.vertex_count(), e.dimension);
   e.quality.sliver_percent = sliver_percent(e.tets, values);
   // All that is refused is refused before the file is written.
-  make_projector(e, std::filesystem::path(args.surface).filename().string());
+  make_projector(e, file_name(args.surface));
   write_file_atomically(args.out, write_embedding(e));
   std::printf("%s: %d vertices, %d faces; shell of %d vertices, %zu tetrahedra; slivers %s %%\n",
               args.out.c_str(), e.mesh_vertex_count, e.face_count(), e.vertex_count(),

@@ -32,8 +32,7 @@ void run_keypoints(const KeypointsArguments& args) {
   const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
   const Target target = make_target(named, args.target, terminal_monitor());
   const TargetSet set = load_target_curves(args.targets);
-  const std::string wanted =
-      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
+  const std::string wanted = args.shape.empty() ? file_stem(named.name) : args.shape;
   const TargetShape& shape = find_target_shape(set, wanted, args.targets);
   require_fits(shape, named.mesh);
   const double scale = args.scale > 0.0 ? args.scale : shape.scale;

@@ -86,7 +86,7 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   row.paper = paper_row(spec);
   Embedding e;
   if (is_embedding_file(spec)) {
-    row.name = std::filesystem::path(spec).filename().string();
+    row.name = file_name(spec);
     e = load_embedding(spec);
   } else {
     const NamedMesh named = load_mesh(spec, terminal_monitor());

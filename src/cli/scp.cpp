@@ -37,8 +37,8 @@ void run_scp(const ScpArguments& args, int& status) {
     throw Error(ErrorKind::invalid_input,
                 args.out + ": is what --points names, and would be lost; give another --out");
   const PointRows rows = read_points_csv(read_file(args.points), points_name);
-  const SmoothProjector projector = make_projector(
-      load_embedding(args.embedding), std::filesystem::path(args.embedding).filename().string());
+  const SmoothProjector projector =
+      make_projector(load_embedding(args.embedding), file_name(args.embedding));
 
   std::vector<std::optional<SmoothPoint>> answers(rows.points.size());
   Executor executor(thread_count(args.threads));

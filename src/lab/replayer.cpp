@@ -11,6 +11,7 @@
 #include <mimicry/study/targets.h>
 
 #include "assets/meshes.h"
+#include "files/names.h"
 #include "lab/study_numbers.h"
 
 namespace mimicry::lab {
@@ -66,7 +67,7 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
     const NamedMesh named = load_mesh(
         options_.mesh.empty() ? mesh_spec(options_.shapes, name) : options_.mesh, monitor_);
     shape.target.emplace(make_target(named, {}, monitor_));
-    if (study_) shape.study = study_->find(std::filesystem::path(name).stem().string());
+    if (study_) shape.study = study_->find(file_stem(name));
     if (shape.study != nullptr) {
       const TargetShape& published = *shape.study->shape;
       require_fits(published, named.mesh);

@@ -29,8 +29,7 @@ struct Task {
 
 Task published_curves(const SimulatedStrokesOptions& options, const NamedMesh& named) {
   const TargetSet set = load_target_curves(options.targets);
-  const std::string wanted =
-      options.shape.empty() ? std::filesystem::path(named.name).stem().string() : options.shape;
+  const std::string wanted = options.shape.empty() ? file_stem(named.name) : options.shape;
   const TargetShape& shape = find_target_shape(set, wanted, options.targets);
   require_fits(shape, named.mesh);
   Task task{{}, shape.scale};

@@ -11,6 +11,7 @@
 #include <mimicry/study/simulate.h>
 
 #include "assets/work.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "lab/participant_folder.h"
 #include "lab/simulated_drawing.h"

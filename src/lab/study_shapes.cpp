@@ -10,13 +10,14 @@
 #include <mimicry/study/targets.h>
 
 #include "assets/meshes.h"
+#include "files/names.h"
 #include "lab/study_numbers.h"
 
 namespace mimicry::lab {
 namespace fs = std::filesystem;
 
 StudyShapes::StudyShapes(const StudyShapeOptions& options) : folder_(options.folder) {
-  const std::string file = fs::path(options.targets).filename().string();
+  const std::string file = file_name(options.targets);
   set_ = load_target_curves(options.targets);
   for (const std::string& name : options.names)
     if (set_.find(name) == nullptr)
