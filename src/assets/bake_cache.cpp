@@ -29,7 +29,7 @@ bool is_ours(const fs::path& file) {
   return file.filename().string().find(kEnding) != std::string::npos;
 }
 
-std::string file_name(std::uint64_t mesh_hash, const BakeOptions& o) {
+std::string name_of_bake(std::uint64_t mesh_hash, const BakeOptions& o) {
   std::uint64_t offset = 0;
   std::memcpy(&offset, &o.offset, sizeof offset);
   char name[160];
@@ -99,7 +99,7 @@ std::optional<Embedding> BakeCache::find(const TriangleMesh& mesh,
                                          const BakeOptions& options) const {
   if (folder_.empty()) return std::nullopt;
   const std::uint64_t hash = content_hash(mesh);
-  const fs::path path = to_path(folder_) / file_name(hash, options);
+  const fs::path path = to_path(folder_) / name_of_bake(hash, options);
   require_place(path);
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return std::nullopt;
@@ -121,7 +121,7 @@ void BakeCache::keep(const Embedding& e) const {
   if (folder_.empty()) return;
   std::error_code trouble;
   fs::create_directories(to_path(folder_), trouble);
-  const fs::path path = to_path(folder_) / file_name(e.mesh_hash, e.options);
+  const fs::path path = to_path(folder_) / name_of_bake(e.mesh_hash, e.options);
   write_file_atomically(to_text(path), write_embedding(e));
   shrink(folder_, most_bytes_);
 }
