@@ -20,7 +20,7 @@ Surface::Surface(TriangleMesh mesh, const ConnectOptions& options) {
   Connected connected = connect(std::move(mesh), options);
   std::vector<Vec3> normals = normals_of(connected.mesh);
   data_ = std::make_shared<Data>(Data{std::move(connected.mesh), std::move(connected.half_edges),
-                                      std::move(normals), connected.report};
+                                      std::move(normals), connected.report});
 }
 
 Surface Surface::as_given(TriangleMesh mesh) {
