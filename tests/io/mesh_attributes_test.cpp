@@ -21,7 +21,7 @@ using testing::IsEmpty;
 using Texcoord = std::array<float, 2>;
 using Color = std::array<float, 4>;
 
-struct Outcome {
+struct Carried {
   TriangleMesh mesh;
   std::vector<std::string> notes;
 
@@ -31,8 +31,8 @@ struct Outcome {
   }
 };
 
-Outcome read(const std::string& bytes, MeshFormat format) {
-  Outcome out;
+Carried read_carried(const std::string& bytes, MeshFormat format) {
+  Carried out;
   MeshReadOptions options;
   options.note = [&](const std::string& note) { out.notes.push_back(note); };
   out.mesh = read_mesh(bytes, format, "name", options);
@@ -59,7 +59,8 @@ std::vector<std::string> of_faces(const FaceLabels& labels) {
 }
 
 // The same for those who look at corners and faces, however values are numbered.
-void expect_same(const TriangleMesh& got, const TriangleMesh& wanted, float tolerance = 0.0f) {
+void expect_same_attributes(const TriangleMesh& got, const TriangleMesh& wanted,
+                            float tolerance = 0.0f) {
   ASSERT_EQ(got.face_count(), wanted.face_count());
   ASSERT_TRUE(got.attributes() && wanted.attributes());
   const MeshAttributes &g = *got.attributes(), &w = *wanted.attributes();
@@ -92,7 +93,7 @@ TriangleMesh painted(bool bytes) {
 }
 
 TEST(MeshAttributesInFiles, ObjKeepsTexcoordsColorsAndNames) {
-  const Outcome outcome = read(
+  const Carried outcome = read_carried(
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0.5\no cup\ng lower side\nusemtl red\n"
       "v 0 0 0 1 0 0.5\nv 1 0 0 0 1 0\nv 1 1 0 0 0 0\nv 0 1 0 1\n"
       "f 1/1 2/2 3/3\ng upper\nusemtl\nf -4/-4/1 3//1 4/-1\nf 1 2 4\n",
@@ -114,29 +115,31 @@ TEST(MeshAttributesInFiles, ObjKeepsTexcoordsColorsAndNames) {
 }
 
 TEST(MeshAttributesInFiles, MeshesWithoutAnyCarryNone) {
-  EXPECT_EQ(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1 2 3\n", MeshFormat::obj).mesh.attributes(),
+  EXPECT_EQ(read_carried("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1 2 3\n", MeshFormat::obj)
+                .mesh.attributes(),
             nullptr);
   for (const MeshFormat format :
        {MeshFormat::obj, MeshFormat::ply, MeshFormat::off, MeshFormat::stl, MeshFormat::glb})
-    EXPECT_EQ(read(write_mesh(tetrahedron(), format), format).mesh.attributes(), nullptr);
+    EXPECT_EQ(read_carried(write_mesh(tetrahedron(), format), format).mesh.attributes(), nullptr);
 }
 
 TEST(MeshAttributesInFiles, ObjTexcoordsThatAreNotThereAreNoted) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nvt x y\n";
   for (const char* face :
        {"f 1/1 2/9 3/1\n", "f 1/1 2/-3 3/1\n", "f 1/1 2/0 3/1\n", "f 1/1 2/x 3/1\n"}) {
-    const Outcome outcome = read(vertices + face, MeshFormat::obj);
+    const Carried outcome = read_carried(vertices + face, MeshFormat::obj);
     EXPECT_THAT(outcome.notes, ElementsAre(HasSubstr("line 6"))) << face;
     EXPECT_EQ(outcome.attributes().texcoords.corners, (std::vector<Index>{0, kNone, 0})) << face;
   }
   // One that is no number is none.
-  EXPECT_EQ(read(vertices + "f 1/1 2/2 3/1\n", MeshFormat::obj).attributes().texcoords.corners,
-            (std::vector<Index>{0, kNone, 0}));
+  EXPECT_EQ(
+      read_carried(vertices + "f 1/1 2/2 3/1\n", MeshFormat::obj).attributes().texcoords.corners,
+      (std::vector<Index>{0, kNone, 0}));
 }
 
 // An L whose corner lies so that its fan does not cover it, with a corner that is repeated.
 TEST(MeshAttributesInFiles, CornersOfPolygonsKeepTheirValues) {
-  const Outcome outcome = read(
+  const Carried outcome = read_carried(
       "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\n"
       "vt 2 0\nvt 2 1\nvt 1 1\nvt 1 2\nvt 0 2\nvt 0 0\nvt 9 9\n"
       "f 1/1 2/2 2/7 3/3 4/4 5/5 6/6\n",
@@ -153,7 +156,7 @@ TEST(MeshAttributesInFiles, CornersOfPolygonsKeepTheirValues) {
 }
 
 TEST(MeshAttributesInFiles, SeamsSplitNoVertex) {
-  const Outcome outcome = read(
+  const Carried outcome = read_carried(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvt 5 5\nvt 6 6\n"
       "f 1/1 2/2 3/2\nf 1/3 3/4 4/4\n",
       MeshFormat::obj);
@@ -173,12 +176,13 @@ TEST(MeshAttributesInFiles, RoundTrips) {
                           Form{MeshFormat::ply, true, true}, Form{MeshFormat::ply, false, true}}) {
     const TriangleMesh mesh = painted(form.bytes);
     const std::string bytes = write_mesh(mesh, form.format, {.text = form.text});
-    const Outcome back = read(bytes, form.format);
+    const Carried back = read_carried(bytes, form.format);
     EXPECT_THAT(back.notes, IsEmpty());
     EXPECT_THAT(back.mesh.positions(), testing::ElementsAreArray(mesh.positions()));
-    expect_same(back.mesh, mesh);
-    if (form.format == MeshFormat::ply)
+    expect_same_attributes(back.mesh, mesh);
+    if (form.format == MeshFormat::ply) {
       EXPECT_EQ(bytes.find("uchar red") != std::string::npos, form.bytes);
+    }
   }
 }
 
@@ -189,8 +193,9 @@ TEST(MeshAttributesInFiles, PlyColorsByCorner) {
   a.colors.corners[4] = 4;
   mesh.set_attributes(std::make_shared<MeshAttributes>(a));
   for (const bool text : {true, false})
-    expect_same(read(write_mesh(mesh, MeshFormat::ply, {.text = text}), MeshFormat::ply).mesh,
-                mesh);
+    expect_same_attributes(
+        read_carried(write_mesh(mesh, MeshFormat::ply, {.text = text}), MeshFormat::ply).mesh,
+        mesh);
 }
 
 TEST(MeshAttributesInFiles, GlbKeepsFacesTexcoordsColorsMaterialsAndTheObject) {
@@ -198,12 +203,12 @@ TEST(MeshAttributesInFiles, GlbKeepsFacesTexcoordsColorsMaterialsAndTheObject) {
   std::vector<std::string> notes;
   MeshWriteOptions options;
   options.note = [&](const std::string& note) { notes.push_back(note); };
-  const Outcome back = read(write_mesh(mesh, MeshFormat::glb, options), MeshFormat::glb);
+  const Carried back = read_carried(write_mesh(mesh, MeshFormat::glb, options), MeshFormat::glb);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("no groups")));
   MeshAttributes a = *mesh.attributes();
   a.groups = {};
   mesh.set_attributes(std::make_shared<MeshAttributes>(a));
-  expect_same(back.mesh, mesh, 6e-8f);
+  expect_same_attributes(back.mesh, mesh, 6e-8f);
   for (Index f = 0; f < mesh.face_count(); ++f)
     for (int k = 0; k < 3; ++k) EXPECT_EQ(back.mesh.corner(f, k), mesh.corner(f, k));
   // A vertex more for the seam, which is none of the surface.
@@ -225,15 +230,15 @@ TEST(MeshAttributesInFiles, OffColorsAndTexcoords) {
   mesh.set_attributes(std::make_shared<MeshAttributes>(a));
   const std::string text = write_mesh(mesh, MeshFormat::off);
   EXPECT_TRUE(text.starts_with("STCOFF\n"));
-  expect_same(read(text, MeshFormat::off).mesh, mesh);
+  expect_same_attributes(read_carried(text, MeshFormat::off).mesh, mesh);
 
   const std::string rest = "\n3 1 0\n0 0 0 0 255 51\n1 0 0 255 255 255\n0 1 0 0 0 0\n3 0 1 2\n";
-  const Outcome whole = read("COFF" + rest, MeshFormat::off);
+  const Carried whole = read_carried("COFF" + rest, MeshFormat::off);
   ASSERT_TRUE(whole.mesh.attributes());
   EXPECT_EQ(*whole.attributes().colors.at_corner(0, 0),
             (Color{0, 1, static_cast<float>(linear_from_srgb(0.2)), 1}));
-  EXPECT_EQ(read("OFF" + rest, MeshFormat::off).mesh.attributes(), nullptr);
-  EXPECT_EQ(read("COFF\n3 1 0\n0 0 0 a b c\n1 0 0\n0 1 0 1 1\n3 0 1 2\n", MeshFormat::off)
+  EXPECT_EQ(read_carried("OFF" + rest, MeshFormat::off).mesh.attributes(), nullptr);
+  EXPECT_EQ(read_carried("COFF\n3 1 0\n0 0 0 a b c\n1 0 0\n0 1 0 1 1\n3 0 1 2\n", MeshFormat::off)
                 .mesh.attributes(),
             nullptr);
 }
@@ -257,25 +262,25 @@ const std::string kPlyVertices =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(MeshAttributesInFiles, PlyLabelsWithoutNames) {
-  const Outcome outcome =
-      read("ply\nformat ascii 1.0\n" + kPlyVertices +
-               "element face 4\nproperty list uchar int vertex_indices\nproperty int label\n"
-               "property float label2\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7 1\n3 0 1 2 7 1\n"
-               "3 0 1 2 -1 1\n3 0 1 2 3 1\n",
-           MeshFormat::ply);
+  const Carried outcome = read_carried(
+      "ply\nformat ascii 1.0\n" + kPlyVertices +
+          "element face 4\nproperty list uchar int vertex_indices\nproperty int label\n"
+          "property float label2\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7 1\n3 0 1 2 7 1\n"
+          "3 0 1 2 -1 1\n3 0 1 2 3 1\n",
+      MeshFormat::ply);
   EXPECT_THAT(of_faces(outcome.attributes().groups), ElementsAre("7", "7", "-", "3"));
   EXPECT_THAT(write_mesh(outcome.mesh, MeshFormat::ply, {.text = true}),
               HasSubstr("3 0 1 2 7\n3 0 1 2 7\n3 0 1 2 -1\n3 0 1 2 3\n"));
 }
 
 TEST(MeshAttributesInFiles, PlyVerticesOfOtherPrograms) {
-  const Outcome outcome =
-      read("ply\nformat ascii 1.0\n" + kPlyVertices +
-               "property uchar diffuse_red\nproperty uchar diffuse_green\n"
-               "property uchar diffuse_blue\nproperty float texture_u\nproperty float texture_v\n"
-               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-               "0 0 0 255 0 0 0.5 0.25\n1 0 0 0 0 255 1 1\n0 1 0 ? 0 0 nan 0\n3 0 1 2\n",
-           MeshFormat::ply);
+  const Carried outcome = read_carried(
+      "ply\nformat ascii 1.0\n" + kPlyVertices +
+          "property uchar diffuse_red\nproperty uchar diffuse_green\n"
+          "property uchar diffuse_blue\nproperty float texture_u\nproperty float texture_v\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+          "0 0 0 255 0 0 0.5 0.25\n1 0 0 0 0 255 1 1\n0 1 0 ? 0 0 nan 0\n3 0 1 2\n",
+      MeshFormat::ply);
   EXPECT_THAT(at_corners(outcome.attributes().texcoords, 1),
               ElementsAre(Texcoord{0.5f, 0.25f}, Texcoord{1, 1}, Texcoord{-1, -1}));
   EXPECT_THAT(at_corners(outcome.attributes().colors, 1),
@@ -283,12 +288,12 @@ TEST(MeshAttributesInFiles, PlyVerticesOfOtherPrograms) {
 }
 
 TEST(MeshAttributesInFiles, PlyListsThatDoNotFitAreNoted) {
-  const Outcome outcome =
-      read("ply\nformat ascii 1.0\n" + kPlyVertices +
-               "element face 2\nproperty list uchar float texcoord\n"
-               "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-               "4 0 0 1 1 3 0 1 2\n6 0 0 1 0 0 1 3 0 1 2\n",
-           MeshFormat::ply);
+  const Carried outcome =
+      read_carried("ply\nformat ascii 1.0\n" + kPlyVertices +
+                       "element face 2\nproperty list uchar float texcoord\n"
+                       "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+                       "4 0 0 1 1 3 0 1 2\n6 0 0 1 0 0 1 3 0 1 2\n",
+                   MeshFormat::ply);
   EXPECT_THAT(outcome.notes, ElementsAre(HasSubstr("first: face 0")));
   EXPECT_EQ(outcome.attributes().texcoords.corners,
             (std::vector<Index>{kNone, kNone, kNone, 0, 1, 2}));
@@ -310,7 +315,7 @@ TEST(MeshAttributesInFiles, GltfNodesThatMirrorTurnTheCornersToo) {
   GltfBuilder gltf = textured_triangle();
   gltf.node({{"mesh", 0}, {"name", "left"}});
   gltf.node({{"mesh", 0}, {"name", "right"}, {"scale", {-1, 1, 1}}});
-  const Outcome outcome = read(gltf.glb(), MeshFormat::glb);
+  const Carried outcome = read_carried(gltf.glb(), MeshFormat::glb);
   EXPECT_THAT(outcome.notes, IsEmpty());
   const MeshAttributes& a = outcome.attributes();
   // v runs up; both nodes share the values.
@@ -329,9 +334,9 @@ TEST(MeshAttributesInFiles, GltfAttributesThatCannotBeReadAreNotedOnce) {
     gltf.node({{"mesh", 0}});
     gltf.node({{"mesh", 0}});
     change(gltf);
-    return read(gltf.glb(), MeshFormat::glb);
+    return read_carried(gltf.glb(), MeshFormat::glb);
   };
-  const auto expect_only_colors = [](const Outcome& outcome, const char* note) {
+  const auto expect_only_colors = [](const Carried& outcome, const char* note) {
     EXPECT_EQ(outcome.mesh.face_count(), 2);
     EXPECT_THAT(outcome.notes, ElementsAre(HasSubstr(note)));
     EXPECT_TRUE(outcome.attributes().texcoords.empty());
@@ -358,7 +363,7 @@ TEST(MeshAttributesInFiles, GltfPrimitivesOfSharedPositionsHaveTheirOwnValues) {
   second["material"] = 0;
   gltf.root["meshes"][0]["primitives"].push_back(second);
   gltf.node({{"mesh", 0}});
-  const Outcome outcome = read(gltf.glb(), MeshFormat::glb);
+  const Carried outcome = read_carried(gltf.glb(), MeshFormat::glb);
   EXPECT_EQ(outcome.mesh.vertex_count(), 3);
   EXPECT_THAT(of_faces(outcome.attributes().materials), ElementsAre("material 1", "first"));
   EXPECT_EQ(*outcome.attributes().texcoords.at_corner(0, 1), (Texcoord{1, 1}));
