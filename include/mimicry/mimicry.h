@@ -122,6 +122,34 @@ MIMICRY_API const int32_t* mimicry_mesh_faces(const mimicry_mesh* mesh);    /* #
  * diagonal is 0.6 m. */
 MIMICRY_API double mimicry_mesh_metres_per_unit(const mimicry_mesh* mesh);
 
+/* What a mesh's file tells beside its geometry, which nothing here looks at. Corners name their
+ * values by number: corners of one vertex that name different ones lie at a seam. */
+typedef struct mimicry_corner_values {
+  const float* values; /* count by 2 or 4 */
+  size_t count;
+  const int32_t* corners; /* #F by 3: the number of the corner's value, -1: it has none.
+                             NULL: the mesh carries none */
+} mimicry_corner_values;
+
+/* Texture coordinates u, v; v up. */
+MIMICRY_API mimicry_corner_values mimicry_mesh_texcoords(const mimicry_mesh* mesh);
+/* Linear red, green, blue and alpha. */
+MIMICRY_API mimicry_corner_values mimicry_mesh_colors(const mimicry_mesh* mesh);
+
+typedef enum mimicry_label_kind {
+  MIMICRY_GROUPS = 0,
+  MIMICRY_MATERIALS = 1,
+  MIMICRY_OBJECTS = 2
+} mimicry_label_kind;
+
+/* #F: the number of the face's name, -1: it has none. NULL: the mesh carries none. */
+MIMICRY_API const int32_t* mimicry_mesh_face_labels(const mimicry_mesh* mesh,
+                                                    mimicry_label_kind kind);
+MIMICRY_API size_t mimicry_mesh_label_count(const mimicry_mesh* mesh, mimicry_label_kind kind);
+/* NULL where there is no such number. */
+MIMICRY_API const char* mimicry_mesh_label_name(const mimicry_mesh* mesh, mimicry_label_kind kind,
+                                                size_t number);
+
 typedef struct mimicry_mesh_report {
   double box_min[3];
   double box_max[3];

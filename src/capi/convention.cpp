@@ -62,10 +62,18 @@ mimicry_status mesh(const char* convention, const mimicry_mesh* from, mimicry_me
     std::vector<Vec3> positions;
     for (const Vec3& x : from->mesh.positions()) positions.push_back(convert(c, x));
     std::vector<Face> faces(from->mesh.faces().begin(), from->mesh.faces().end());
-    if (c.world_axes.determinant() < 0.0)
+    const bool mirrors = c.world_axes.determinant() < 0.0;
+    if (mirrors)
       for (Face& face : faces) std::swap(face[1], face[2]);
-    return mimicry_mesh{from->name, TriangleMesh(std::move(positions), std::move(faces)),
-                        from->metres_per_unit};
+    TriangleMesh mesh(std::move(positions), std::move(faces));
+    std::shared_ptr<const MeshAttributes> attributes = from->mesh.attributes();
+    if (attributes && mirrors) {
+      auto turned = std::make_shared<MeshAttributes>(*attributes);
+      turned->turn_faces(std::vector<bool>(at(mesh.face_count()), true));
+      attributes = std::move(turned);
+    }
+    mesh.set_attributes(std::move(attributes));
+    return mimicry_mesh{from->name, std::move(mesh), from->metres_per_unit};
   });
 }
 

@@ -38,6 +38,8 @@ struct GltfPrimitive {
   std::size_t vertices = 0;  // which of the mesh's
   std::size_t corners = 0;
   std::optional<GltfAccessor> indices;  // none: the vertices in order
+  const Json* json = nullptr;
+  std::optional<GltfAccessor> texcoords, colors;  // decompressed ones; others stand in the JSON
 
   std::size_t triangles() const;
 };
@@ -73,6 +75,12 @@ class GltfMesh {
   GltfVertices read_vertices(const Json& primitive, const Attributes& decompressed,
                              const std::string& place) const;
   void decode(const Compressed& compressed);
+  /// The values must outlive what is returned.
+  GltfAccessor decompressed(const GltfPrimitive& primitive, const std::string& name,
+                            const DracoAttribute& values, std::size_t points) const;
+  /// Texture coordinates or colours; a note where they cannot be used.
+  void keep_attribute(GltfPrimitive& primitive, const std::string& name,
+                      const DracoAttribute& values, std::size_t points) const;
 
   const GltfJson& gltf_;
   GltfBuffers& buffers_;

@@ -40,17 +40,21 @@ Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* fo
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options) {
   const FloatTrapMask mask;  // to single precision may overflow
+  const WriteNote note = [&](const std::string& sentence) {
+    if (options.note) options.note(sentence);
+  };
   switch (format) {
     case MeshFormat::obj:
-      return write_obj(mesh);
+      return write_obj(mesh, note);
     case MeshFormat::ply:
       return write_ply(mesh, options.text);
     case MeshFormat::stl:
+      if (mesh.attributes()) note("STL holds no attributes of meshes; they are left out");
       return write_stl(mesh, options.text);
     case MeshFormat::off:
-      return write_off(mesh);
+      return write_off(mesh, note);
     case MeshFormat::glb:
-      return write_glb(mesh);
+      return write_glb(mesh, note);
     case MeshFormat::gltf:
       break;
   }

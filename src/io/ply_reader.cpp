@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,8 +68,27 @@ struct Element {
 
 enum class Encoding { text, little_endian, big_endian };
 
+// Names of the numbers that stand for a label, as our writer puts them: "comment group 2 handle".
+struct LabelNames {
+  std::vector<std::pair<std::int64_t, std::string_view>> groups, materials, objects;
+
+  void add(std::string_view comment) {
+    const std::string_view kind = take_word(comment);
+    auto* names = kind == "group"      ? &groups
+                  : kind == "material" ? &materials
+                  : kind == "object"   ? &objects
+                                       : nullptr;
+    if (!names) return;
+    const auto number = parse_integer(take_word(comment));
+    while (!comment.empty() && is_blank(comment.front())) comment.remove_prefix(1);
+    while (!comment.empty() && is_blank(comment.back())) comment.remove_suffix(1);
+    if (number && !comment.empty()) names->emplace_back(*number, comment);
+  }
+};
+
 struct Header {
   Encoding encoding = Encoding::text;
+  LabelNames labels;
   std::vector<Element> elements;
   std::size_t lines = 0;
   std::string_view body;
@@ -132,7 +156,9 @@ Header read_header(std::string_view bytes, MeshBuilder& mesh) {
       property.type = *type;
       property.name = take_word(line);
       header.elements.back().properties.push_back(property);
-    } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+    } else if (keyword == "comment") {
+      header.labels.add(line);
+    } else if (keyword != "obj_info" && !keyword.empty()) {
       if (unknown++ == 0)
         first_unknown = in_quotes(keyword) + " in line " + std::to_string(lines.line());
     }
@@ -151,6 +177,10 @@ class TextSource {
       : words_(header.body, name, header.lines + 1) {}
   double number(Type) { return words_.number("a property"); }
   std::int64_t integer(Type) { return words_.integer("a list's count or item"); }
+  /// NaN where it is no number: for what may be passed over.
+  double number_or_nan(Type) {
+    return parse_double(words_.required("a property")).value_or(std::nan(""));
+  }
   void skip(Type) { words_.skip("a property"); }
   std::uint64_t bytes_left() const { return words_.bytes_left(); }
   [[noreturn]] void fail(const std::string& what) const { words_.fail(what); }
@@ -182,6 +212,7 @@ class BinarySource {
         return static_cast<double>(whole(type, p));
     }
   }
+  double number_or_nan(Type type) { return number(type); }
   std::int64_t integer(Type type) { return whole(type, take(type)); }
   void skip(Type type) { take(type); }
   std::uint64_t bytes_left() const { return bytes_.size() - offset_; }
@@ -237,34 +268,105 @@ void skip_property(Source& source, const Property& property) {
   for (std::int64_t k = 0; k < count; ++k) source.skip(property.type);
 }
 
+/// What the numbers of a vertex are for.
+enum Role { kPassedOver = -1, kX, kY, kZ, kRed, kGreen, kBlue, kAlpha, kU, kV, kRoles };
+
+Role role_of(const Property& property) {
+  if (property.count_type) return kPassedOver;
+  constexpr std::pair<std::string_view, Role> kNames[] = {
+      {"x", kX},         {"y", kY},         {"z", kZ},
+      {"red", kRed},     {"green", kGreen}, {"blue", kBlue},
+      {"alpha", kAlpha}, {"r", kRed},       {"g", kGreen},
+      {"b", kBlue},      {"a", kAlpha},     {"diffuse_red", kRed},
+      {"s", kU},         {"t", kV},         {"diffuse_green", kGreen},
+      {"u", kU},         {"v", kV},         {"diffuse_blue", kBlue},
+      {"texture_u", kU}, {"texture_v", kV}, {"diffuse_alpha", kAlpha}};
+  for (const auto& [name, role] : kNames)
+    if (property.name == name) return role;
+  return kPassedOver;
+}
+
+/// What stands for 1 in a colour.
+double most_of(Type type) {
+  switch (type) {
+    case Type::int8:
+    case Type::uint8:
+      return 255.0;
+    case Type::int16:
+    case Type::uint16:
+      return 65535.0;
+    default:
+      return is_whole(type) ? 255.0 : 1.0;
+  }
+}
+
+/// Eight bits are converted by a table.
+class ColorOfBytes {
+ public:
+  ColorOfBytes() {
+    for (std::size_t k = 0; k < 256; ++k)
+      linear_[k] = static_cast<float>(linear_from_srgb(static_cast<double>(k) / 255.0));
+  }
+  std::array<float, 4> operator()(const double (&numbers)[kRoles], double most) const {
+    std::array<float, 4> color;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = numbers[static_cast<std::size_t>(kRed) + k];
+      color[k] = most == 255.0 && x >= 0.0 && x <= 255.0 && x == std::floor(x)
+                     ? linear_[static_cast<std::size_t>(x)]
+                     : static_cast<float>(linear_from_srgb(x / most));
+    }
+    color[3] = static_cast<float>(numbers[kAlpha] / most);
+    return color;
+  }
+
+ private:
+  float linear_[256];
+};
+
+/// by_corner: what faces have in lists of their own and vertices need not tell.
+struct ByCorner {
+  bool texcoords = false, colors = false;
+};
+
 template <class Source>
-void read_vertices(Source& source, const Element& element, MeshBuilder& mesh) {
-  std::vector<int> axes;  // 0, 1, 2 for x, y, z; -1 for what is passed over
-  int found[3] = {};
+void read_vertices(Source& source, const Element& element, const ByCorner& by_corner,
+                   MeshBuilder& mesh) {
+  std::vector<Role> roles;
+  int found[kRoles] = {};
+  double most = 1.0;
   for (const Property& property : element.properties) {
-    const bool scalar = !property.count_type;
-    const int axis = !scalar                ? -1
-                     : property.name == "x" ? 0
-                     : property.name == "y" ? 1
-                     : property.name == "z" ? 2
-                                            : -1;
-    axes.push_back(axis);
-    if (axis >= 0) ++found[axis];
+    Role role = role_of(property);
+    if (role >= kRed && found[role] > 0) role = kPassedOver;  // the first counts
+    roles.push_back(role);
+    if (role >= 0) ++found[role];
+    if (role == kRed) most = most_of(property.type);
   }
   for (int axis = 0; axis < 3; ++axis)
     if (found[axis] != 1)
       source.fail(std::string("the element 'vertex' needs one property '") + "xyz"[axis] +
                   "'; export the file again");
+  const bool has_color =
+      !by_corner.colors && found[kRed] > 0 && found[kGreen] > 0 && found[kBlue] > 0;
+  const bool has_texcoord = !by_corner.texcoords && found[kU] > 0 && found[kV] > 0;
+  for (Role& role : roles)
+    if (role >= kU ? !has_texcoord : role >= kRed && !has_color) role = kPassedOver;
+  const ColorOfBytes to_color;
   mesh.reserve(element.count, 0);
+  double numbers[kRoles] = {};
+  numbers[kAlpha] = most;
   for (std::uint64_t v = 0; v < element.count; ++v) {
-    Vec3 position;
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      if (axes[k] >= 0)
-        position[axes[k]] = source.number(element.properties[k].type);
-      else
+    for (std::size_t k = 0; k < roles.size(); ++k) {
+      const Type type = element.properties[k].type;
+      if (roles[k] == kPassedOver)
         skip_property(source, element.properties[k]);
+      else
+        numbers[roles[k]] = roles[k] <= kZ ? source.number(type) : source.number_or_nan(type);
     }
-    mesh.add_vertex(position);
+    const Index vertex = mesh.add_vertex({numbers[kX], numbers[kY], numbers[kZ]});
+    if (has_color) mesh.attributes().colors.set_of_vertex(vertex, to_color(numbers, most));
+    if (has_texcoord)
+      mesh.attributes().texcoords.set_of_vertex(
+          vertex, {static_cast<float>(numbers[kU]), static_cast<float>(numbers[kV])});
   }
 }
 
@@ -284,10 +386,130 @@ const Property& list_of_corners(Source& source, const Element& element) {
               " needs a list 'vertex_indices'; export the file again");
 }
 
-/// Hands over the corners of each of an element's faces or strips.
-template <class Source, class Visit>
+/// What faces and strips have beside their corners.
+class FaceAttributes {
+ public:
+  FaceAttributes(const Header& header, MeshBuilder& mesh) : header_(header), mesh_(mesh) {}
+
+  /// The lists of corners' values among an element's properties.
+  static bool is_texcoords(const Property& p) { return p.count_type && p.name == "texcoord"; }
+  static bool is_colors(const Property& p) { return p.count_type && p.name == "color"; }
+
+  template <class Source>
+  void read(Source& source, const Property& property) {
+    if (is_texcoords(property)) return read_list(source, property, texcoords_);
+    if (is_colors(property)) return read_list(source, property, colors_);
+    const bool is_number = !property.count_type && is_whole(property.type);
+    const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+      return is_number && std::find(names.begin(), names.end(), property.name) != names.end();
+    };
+    if (is_one_of({"group", "group_id", "label", "segment", "segment_id"}))
+      read_label(source, property, mesh_.attributes().groups, groups_, header_.labels.groups);
+    else if (is_one_of({"material", "material_index"}))
+      read_label(source, property, mesh_.attributes().materials, materials_,
+                 header_.labels.materials);
+    else if (is_one_of({"object", "object_index"}))
+      read_label(source, property, mesh_.attributes().objects, objects_, header_.labels.objects);
+    else
+      skip_property(source, property);
+  }
+
+  void add_polygon(std::span<const Index> corners) {
+    number_values<2>(
+        texcoords_, corners, mesh_.attributes().texcoords, texcoord_numbers_, [](const double* x) {
+          return std::array<float, 2>{static_cast<float>(x[0]), static_cast<float>(x[1])};
+        });
+    const auto color = [](const double* x) { return color_from_srgb(x[0], x[1], x[2], x[3]); };
+    if (colors_.size() == 3 * corners.size() && !corners.empty()) {  // without alpha
+      colors_.resize(4 * corners.size());
+      for (std::size_t k = corners.size(); k-- > 0;) {
+        for (std::size_t i = 3; i-- > 0;) colors_[4 * k + i] = colors_[3 * k + i];
+        colors_[4 * k + 3] = 1.0;
+      }
+    }
+    number_values<4>(colors_, corners, mesh_.attributes().colors, color_numbers_, color);
+    mesh_.add_polygon(corners, texcoord_numbers_, color_numbers_);
+    texcoords_.clear();
+    colors_.clear();
+    ++faces_;
+  }
+
+  void tell() const {
+    if (misfits_ > 0)
+      mesh_.note(std::to_string(misfits_) +
+                 (misfits_ == 1 ? " list of texture coordinates or colours does"
+                                : " lists of texture coordinates or colours do") +
+                 " not fit the face's corners and " + (misfits_ == 1 ? "is" : "are") +
+                 " passed over (first: face " + std::to_string(first_misfit_) + ")");
+  }
+
+ private:
+  template <class Source>
+  static void read_list(Source& source, const Property& property, std::vector<double>& out) {
+    const std::int64_t count = list_size(source, property);
+    out.clear();
+    for (std::int64_t k = 0; k < count; ++k) out.push_back(source.number_or_nan(property.type));
+    if (is_colors(property) && most_of(property.type) > 1.0)
+      for (double& x : out) x /= most_of(property.type);
+  }
+
+  struct Labels {
+    std::map<std::int64_t, Index> numbers;
+    std::int64_t last = -1;
+    Index last_number = kNone;
+  };
+
+  template <class Source>
+  void read_label(Source& source, const Property& property, FaceLabelBuilder& labels, Labels& known,
+                  const std::vector<std::pair<std::int64_t, std::string_view>>& names) {
+    const double label = source.number_or_nan(property.type);
+    if (known.numbers.empty())
+      for (const auto& [number, name] : names)
+        known.numbers.try_emplace(number, labels.number(name));
+    // Below 0, and what is no number: none.
+    const auto number = label >= 0.0 && label < 1e15 ? static_cast<std::int64_t>(label) : -1;
+    if (number != known.last) {
+      known.last = number;
+      const auto found = known.numbers.find(number);
+      if (number < 0)
+        known.last_number = kNone;
+      else if (found != known.numbers.end())
+        known.last_number = found->second;
+      else
+        known.last_number = known.numbers[number] = labels.number(std::to_string(number));
+    }
+    labels.begin(mesh_.face_count(), known.last_number);
+  }
+
+  // Empty where the list does not fit. Neighbours in a face often share nothing: each corner gets
+  // a value of its own, but for one that repeats the last.
+  template <std::size_t N, class Convert>
+  void number_values(const std::vector<double>& list, std::span<const Index> corners,
+                     CornerValueBuilder<N>& values, std::vector<Index>& numbers,
+                     const Convert& convert) {
+    numbers.clear();
+    if (list.empty()) return;
+    if (list.size() != N * corners.size()) {
+      if (misfits_++ == 0) first_misfit_ = faces_;
+      return;
+    }
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      numbers.push_back(values.add_at(corners[k], convert(&list[N * k])));
+  }
+
+  const Header& header_;
+  MeshBuilder& mesh_;
+  std::vector<double> texcoords_, colors_;  // of the face that is read
+  std::vector<Index> texcoord_numbers_, color_numbers_;
+  Labels groups_, materials_, objects_;
+  std::uint64_t faces_ = 0, misfits_ = 0, first_misfit_ = 0;
+};
+
+/// Hands over the corners of each of an element's faces or strips, and to `other` what else they
+/// have.
+template <class Source, class Other, class Visit>
 void read_corners(Source& source, const Element& element, std::uint64_t vertex_count,
-                  bool has_restarts, const Visit& visit) {
+                  bool has_restarts, const Other& other, const Visit& visit) {
   if (element.count == 0) return;
   const Property& list = list_of_corners(source, element);
   std::vector<Index> corners;
@@ -295,7 +517,7 @@ void read_corners(Source& source, const Element& element, std::uint64_t vertex_c
     corners.clear();
     for (const Property& property : element.properties) {
       if (&property != &list) {
-        skip_property(source, property);
+        other(property);
         continue;
       }
       const std::int64_t count = list_size(source, list);
@@ -345,23 +567,36 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
       source.fail("the header promises " + std::to_string(element.count) + " elements " +
                   in_quotes(element.name) + ", more than the file holds; it is cut short");
   }
+  FaceAttributes attributes(header, mesh);
+  ByCorner by_corner;
+  for (const Element& element : header.elements)
+    for (const Property& property : element.properties) {
+      if (element.name != "face") continue;
+      by_corner.texcoords = by_corner.texcoords || FaceAttributes::is_texcoords(property);
+      by_corner.colors = by_corner.colors || FaceAttributes::is_colors(property);
+    }
   for (const Element& element : header.elements) {
     if (element.name == "vertex") {
       if (seen_vertices) source.fail("two elements 'vertex'; export the file again");
       seen_vertices = true;
-      read_vertices(source, element, mesh);
+      read_vertices(source, element, by_corner, mesh);
     } else if (element.name == "face") {
       mesh.reserve(0, element.count);
-      read_corners(source, element, vertex_count, false,
-                   [&](std::span<const Index> corners) { mesh.add_polygon(corners); });
+      read_corners(
+          source, element, vertex_count, false,
+          [&](const Property& property) { attributes.read(source, property); },
+          [&](std::span<const Index> corners) { attributes.add_polygon(corners); });
     } else if (element.name == "tristrips") {
-      read_corners(source, element, vertex_count, true,
-                   [&](std::span<const Index> corners) { add_strip(corners, mesh); });
+      read_corners(
+          source, element, vertex_count, true,
+          [&](const Property& property) { skip_property(source, property); },
+          [&](std::span<const Index> corners) { add_strip(corners, mesh); });
     } else if (!element.properties.empty()) {
       for (std::uint64_t n = 0; n < element.count; ++n)
         for (const Property& property : element.properties) skip_property(source, property);
     }
   }
+  attributes.tell();
 }
 
 }  // namespace

@@ -66,6 +66,8 @@ class Words {
   void skip_line();
   double number(const char* what);
   std::int64_t integer(const char* what);
+  /// The next word; throws where none is left.
+  std::string_view required(const char* what);
   /// Passes over a word, whatever it says.
   void skip(const char* what);
   std::size_t line() const { return line_; }
@@ -73,7 +75,6 @@ class Words {
   [[noreturn]] void fail(const std::string& what) const { fail_at_line(name_, line_, what); }
 
  private:
-  std::string_view required(const char* what);
   static bool is_space(char c) { return is_blank(c) || c == '\n'; }
   // A CR before an LF leaves the end to it.
   bool ends_line(std::size_t at) const {

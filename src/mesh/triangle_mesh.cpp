@@ -35,6 +35,12 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
   polygons_.shrink_to_fit();
 }
 
+void TriangleMesh::set_attributes(std::shared_ptr<const MeshAttributes> attributes) {
+  if (attributes && attributes->empty()) attributes.reset();
+  if (attributes) attributes->require_fit(face_count());
+  attributes_ = std::move(attributes);
+}
+
 TriangleMesh TriangleMesh::with_positions(std::vector<Vec3> positions) const {
   TriangleMesh other = *this;
   other.set_positions(positions);

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -34,6 +35,38 @@ mimicry_surface_point surface_point(const Target& target, double x, double y, do
 
 double distance(const double* a, const double* b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(CApiMeshes, CarryWhatTheirFileTells) {
+  const std::string obj =
+      "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0.5\nvt 1 0\ng cup\nusemtl red\n"
+      "f 1/1 2/2 3/2\ng\nf 1 3 2\n";
+  mimicry_mesh* made = nullptr;
+  ASSERT_EQ(mimicry_mesh_read(obj.data(), obj.size(), "a.obj", &made), MIMICRY_OK);
+  mimicry_mesh* mirrored = nullptr;  // faces turn, and their corners' values with them
+  ASSERT_EQ(mimicry_mesh_in("unity", made, &mirrored), MIMICRY_OK);
+  const std::vector<int32_t> corners = {0, 1, 1, -1, -1, -1};
+  for (const mimicry_mesh* mesh : {made, mirrored}) {
+    const mimicry_corner_values uv = mimicry_mesh_texcoords(mesh);
+    ASSERT_EQ(uv.count, 2u);
+    EXPECT_EQ(std::vector<int32_t>(uv.corners, uv.corners + 6), corners);
+    EXPECT_EQ(uv.values[1], 0.5f);
+    const mimicry_corner_values colors = mimicry_mesh_colors(mesh);
+    ASSERT_EQ(colors.count, 3u);
+    EXPECT_EQ(std::vector<int32_t>(colors.corners, colors.corners + 6),
+              std::vector<int32_t>(mimicry_mesh_faces(mesh), mimicry_mesh_faces(mesh) + 6));
+    EXPECT_EQ(colors.values[4 * 2 + 2], 1.0f);
+    ASSERT_EQ(mimicry_mesh_label_count(mesh, MIMICRY_GROUPS), 1u);
+    EXPECT_STREQ(mimicry_mesh_label_name(mesh, MIMICRY_GROUPS, 0), "cup");
+    EXPECT_EQ(mimicry_mesh_label_name(mesh, MIMICRY_GROUPS, 1), nullptr);
+    EXPECT_EQ(mimicry_mesh_face_labels(mesh, MIMICRY_GROUPS)[1], -1);
+    EXPECT_EQ(mimicry_mesh_face_labels(mesh, MIMICRY_MATERIALS)[1], 0);
+    EXPECT_EQ(mimicry_mesh_face_labels(mesh, MIMICRY_OBJECTS), nullptr);
+  }
+  mimicry_mesh_destroy(mirrored);
+  mimicry_mesh_destroy(made);
+  EXPECT_EQ(mimicry_mesh_texcoords(nullptr).corners, nullptr);
+  EXPECT_EQ(mimicry_mesh_label_count(nullptr, MIMICRY_OBJECTS), 0u);
 }
 
 TEST(CApiQueries, ManyPointsEqualOneByOne) {

@@ -203,6 +203,20 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(pressed["ply"] == plain["ply"], same)
             self.assertEqual(curves("d", path, "--tube-width", "constant"), plain)
 
+    def test_info_of_attributes(self):
+        mesh = self.write("cup.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\no cup\ng lower side\n"
+                          "usemtl red\nf 1/1 2/2 3/9\ng upper\nf 1 3 2\n")
+        done = run("info", mesh, "--json")
+        self.assertIn("line 9", done.stderr)
+        self.assertEqual({"texcoord_corners": 2, "texcoords": 2, "color_corners": 0, "colors": 0,
+                          "groups": ["lower side", "upper"], "materials": ["red"], "objects": ["cup"]},
+                         json.loads(done.stdout)["attributes"])
+        text = run("info", mesh).stdout
+        self.assertRegex(text, r"texture coordinates +2, at 2 corners of 6")
+        self.assertRegex(text, r"groups +2: lower side, upper")
+        plain = run("info", "shape:torus")
+        self.assertNotIn("groups", plain.stdout)
+
     def test_info(self):
         report = json.loads(run("info", "shape:double-torus", "--json").stdout)
         self.assertEqual((report["genus"], report["closed"], report["drawable"]), (2, True, True))

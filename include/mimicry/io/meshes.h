@@ -26,7 +26,8 @@ struct MeshReadOptions {
   std::size_t max_faces = 200'000'000;
   /// What a glTF may unfold to by using meshes again and again: triangles and vertices, or 16 a
   /// byte of what was read where that is more. A file whose triangles are all its own has fewer
-  /// than that; ten million of both take 360 MB.
+  /// than that; ten million of both take 360 MB, with
+  /// texture coordinates and colours 240 MB more.
   std::size_t max_unfolded = 10'000'000;
   /// What the one who reads the messages can raise `max_unfolded` with; empty: nothing.
   std::string raises_unfolded = {};
@@ -44,8 +45,8 @@ struct MeshReadOptions {
 /// into the fan (0, k, k + 1), others by ears (`io/polygon.h` beside the sources). Corners that
 /// repeat the one before are dropped from a polygon of four and more; a face of fewer than three
 /// different corners makes no triangle. A triangle is kept as it is.
-/// - OBJ, PLY (text, binary of either byte order), OFF (with colours, normals or texture
-///   coordinates, which are passed over): vertices and faces in file order, unused vertices kept.
+/// - OBJ, PLY (text, binary of either byte order), OFF: vertices and faces in file order, unused
+///   vertices kept.
 /// - STL (text, binary): corners at the same position become one vertex, numbered in the order of
 ///   first appearance. -0 and 0 are the same position.
 /// - GLB, glTF 2.0: all triangles, strips and fans of the default scene, nodes depth first, with
@@ -53,6 +54,8 @@ struct MeshReadOptions {
 ///   seams as often as the file has them; primitives of one mesh that name the same accessors share
 ///   them. Triangles of a strip that repeat a vertex are left out, they only join strips. The
 ///   name's ending does not tell GLB and glTF apart, the first bytes do.
+/// Texture coordinates, colours and names of groups, materials and objects become the mesh's
+/// attributes (docs/formats.md, "What meshes carry"); those that cannot be understood are left out.
 /// docs/formats.md has what other programs' files may differ in. Text in UTF-8, with or without
 /// its byte order mark.
 ///
@@ -85,6 +88,8 @@ TriangleMesh read_mesh_files(std::span<const NamedBytes> files, std::size_t mesh
 
 struct MeshWriteOptions {
   bool text = false;  ///< PLY and STL as text instead of binary; the other formats have one form
+  /// Is told, a sentence each, which attributes the format does not hold; may be empty.
+  std::function<void(const std::string& sentence)> note = {};
 };
 
 /// The bytes of a file that holds the mesh's triangles; source polygons are not put together
@@ -92,6 +97,9 @@ struct MeshWriteOptions {
 /// format, in either form. STL and GLB throw Error(invalid_input) for a coordinate that is not
 /// finite in single precision; GLB for a mesh without faces; glTF throws Error(unsupported), write
 /// GLB. O(#V + #F).
+///
+/// The mesh's attributes are written as far as the format holds them (docs/formats.md, "What meshes
+/// carry"), and read back as they were; a mesh without any gives the bytes of its geometry alone.
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options = {});
 

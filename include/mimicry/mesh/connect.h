@@ -73,6 +73,7 @@ struct Connected {
 /// the same orientation and whose vertices have one fan each, so that every technique can walk on
 /// it. Positions and face numbers are the caller's (polygon numbers, too); `mesh.source()` maps
 /// vertices and corners where they are not. A mesh that is such a surface comes back as it is.
+/// Attributes stay with the corners and faces that they are of, whatever becomes of the vertices.
 ///
 /// - Vertices that no face uses are left out.
 /// - A face with two corners at one place, and the faces of a polygon that lies where an earlier
