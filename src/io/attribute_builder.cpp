@@ -31,11 +31,11 @@ void CornerValueBuilder<N>::cut(std::size_t first, std::size_t end,
 
 template <std::size_t N>
 CornerValues<N> CornerValueBuilder<N>::finish(std::span<const Face> faces) {
-  if (values_.empty()) {
+  if (values_.empty() || (!by_vertex_ && corners_.empty())) {
     clear();
     return {};
   }
-  const std::span<const Face> named = corners_.empty() ? faces : std::span<const Face>(corners_);
+  const std::span<const Face> named = by_vertex_ ? faces : std::span<const Face>(corners_);
   CornerValues<N> result;
   result.corners.assign(3 * faces.size(), kNone);
   bool any = false;

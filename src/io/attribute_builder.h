@@ -38,6 +38,7 @@ class CornerValueBuilder {
   void set_of_vertex(Index vertex, const Value& value) {
     if (values_.size() <= at(vertex)) values_.resize(at(vertex) + 1, none());
     values_[at(vertex)] = value;
+    by_vertex_ = true;
   }
   /// numbers: not yet checked against the values.
   void set_face(std::size_t face, const Face& numbers) {
@@ -58,7 +59,8 @@ class CornerValueBuilder {
 
   std::vector<Value> values_;
   std::vector<Index> last_;    // of a vertex, by `add_at`
-  std::vector<Face> corners_;  // of the first faces, the others have none; empty: as the vertices
+  std::vector<Face> corners_;  // of the first faces, the others have none
+  bool by_vertex_ = false;     // corners have the values of their vertices
 };
 
 extern template class CornerValueBuilder<2>;
