@@ -40,10 +40,10 @@ class CornerValueBuilder {
     values_[at(vertex)] = value;
     by_vertex_ = true;
   }
-  /// numbers: not yet checked against the values.
+  /// face: higher than any before. numbers: not yet checked against the values.
   void set_face(std::size_t face, const Face& numbers) {
-    if (corners_.size() <= face) corners_.resize(face + 1, Face{kNone, kNone, kNone});
-    corners_[face] = numbers;
+    if (corners_.size() < face) corners_.resize(face, Face{kNone, kNone, kNone});
+    corners_.push_back(numbers);
   }
   /// Puts the corners of a polygon of faces [first, end), which are the fan (0, k, k + 1), to other
   /// faces of it: triples of its corners' numbers.
