@@ -31,18 +31,19 @@ void CornerValueBuilder<N>::cut(std::size_t first, std::size_t end,
 
 template <std::size_t N>
 CornerValues<N> CornerValueBuilder<N>::finish(std::span<const Face> faces) {
-  if (values_.empty()) {
+  if (values_.empty() || (!by_vertex_ && corners_.empty())) {
     clear();
     return {};
   }
-  const std::span<const Face> named = corners_.empty() ? faces : std::span<const Face>(corners_);
+  const std::span<const Face> named = by_vertex_ ? faces : std::span<const Face>(corners_);
   CornerValues<N> result;
   result.corners.assign(3 * faces.size(), kNone);
+  const bool all_are = std::none_of(values_.begin(), values_.end(), is_none);
   bool any = false;
   for (std::size_t f = 0; f < named.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index n = named[f][k];
-      if (n < 0 || at(n) >= values_.size() || is_none(values_[at(n)])) continue;
+      if (n < 0 || at(n) >= values_.size() || (!all_are && is_none(values_[at(n)]))) continue;
       result.corners[3 * f + k] = n;
       any = true;
     }

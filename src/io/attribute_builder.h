@@ -38,11 +38,12 @@ class CornerValueBuilder {
   void set_of_vertex(Index vertex, const Value& value) {
     if (values_.size() <= at(vertex)) values_.resize(at(vertex) + 1, none());
     values_[at(vertex)] = value;
+    by_vertex_ = true;
   }
-  /// numbers: not yet checked against the values.
+  /// face: higher than any before. numbers: not yet checked against the values.
   void set_face(std::size_t face, const Face& numbers) {
-    if (corners_.size() <= face) corners_.resize(face + 1, Face{kNone, kNone, kNone});
-    corners_[face] = numbers;
+    if (corners_.size() < face) corners_.resize(face, Face{kNone, kNone, kNone});
+    corners_.push_back(numbers);
   }
   /// Puts the corners of a polygon of faces [first, end), which are the fan (0, k, k + 1), to other
   /// faces of it: triples of its corners' numbers.
@@ -58,7 +59,8 @@ class CornerValueBuilder {
 
   std::vector<Value> values_;
   std::vector<Index> last_;    // of a vertex, by `add_at`
-  std::vector<Face> corners_;  // of the first faces, the others have none; empty: as the vertices
+  std::vector<Face> corners_;  // of the first faces, the others have none
+  bool by_vertex_ = false;     // corners have the values of their vertices
 };
 
 extern template class CornerValueBuilder<2>;

@@ -1,5 +1,6 @@
 #include "io/gltf_attributes.h"
 
+#include <algorithm>
 #include <array>
 
 #include <mimicry/base/error.h>
@@ -36,7 +37,9 @@ Index GltfAttributes::add(const GltfPrimitive& primitive, std::size_t vertices, 
   const Json* attributes = GltfJson::find(*primitive.json, "attributes");
   if (vertices == 0 || !attributes || !GltfJson::find(*attributes, name)) return kNone;
   const auto [known, is_new] = of_primitive_.try_emplace({&primitive, name}, kNone);
-  if (!is_new) return known->second;
+  const bool is_lost =
+      std::find(primitive.lost.begin(), primitive.lost.end(), name) != primitive.lost.end();
+  if (!is_new || is_lost) return known->second;
   try {
     known->second = add_new(primitive, vertices, name, decompressed, add_value);
   } catch (const Error& error) {

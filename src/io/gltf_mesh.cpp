@@ -229,6 +229,7 @@ void GltfMesh::keep_attribute(GltfPrimitive& primitive, const std::string& name,
       is_color ? values.components == 3 || values.components == 4 : values.components == 2;
   if (!fits || values.component_type == 0) {
     gltf_.note(primitive.place + ": its compressed " + name + " cannot be read and is passed over");
+    primitive.lost.push_back(name);
     return;
   }
   (is_color ? primitive.colors : primitive.texcoords)

@@ -39,6 +39,7 @@ struct GltfPrimitive {
   std::size_t corners = 0;
   std::optional<GltfAccessor> indices;  // none: the vertices in order
   const Json* json = nullptr;
+  std::vector<std::string> lost;                  // attributes whose compressed form cannot be read
   std::optional<GltfAccessor> texcoords, colors;  // decompressed ones; others stand in the JSON
 
   std::size_t triangles() const;

@@ -1,8 +1,4 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <initializer_list>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,82 +9,24 @@
 
 #include "io/binary.h"
 #include "io/mesh_builder.h"
+#include "io/ply_attributes.h"
+#include "io/ply_property.h"
 #include "io/text.h"
 
 namespace mimicry {
 namespace {
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::int8:
-    case Type::uint8:
-      return 1;
-    case Type::int16:
-    case Type::uint16:
-      return 2;
-    case Type::int32:
-    case Type::uint32:
-    case Type::float32:
-      return 4;
-    case Type::float64:
-      break;
-  }
-  return 8;
-}
-
-bool is_whole(Type type) {
-  return type != Type::float32 && type != Type::float64;
-}
-
-std::optional<Type> type_of(std::string_view word) {
-  if (word == "char" || word == "int8") return Type::int8;
-  if (word == "uchar" || word == "uint8") return Type::uint8;
-  if (word == "short" || word == "int16") return Type::int16;
-  if (word == "ushort" || word == "uint16") return Type::uint16;
-  if (word == "int" || word == "int32") return Type::int32;
-  if (word == "uint" || word == "uint32") return Type::uint32;
-  if (word == "float" || word == "float32") return Type::float32;
-  if (word == "double" || word == "float64") return Type::float64;
-  return std::nullopt;
-}
-
-struct Property {
-  std::string_view name;
-  std::optional<Type> count_type;  // lists only
-  Type type;
-};
-
 struct Element {
   std::string_view name;
   std::uint64_t count;
-  std::vector<Property> properties;
+  std::vector<PlyProperty> properties;
 };
 
 enum class Encoding { text, little_endian, big_endian };
 
-// Names of the numbers that stand for a label, as our writer puts them: "comment group 2 handle".
-struct LabelNames {
-  std::vector<std::pair<std::int64_t, std::string_view>> groups, materials, objects;
-
-  void add(std::string_view comment) {
-    const std::string_view kind = take_word(comment);
-    auto* names = kind == "group"      ? &groups
-                  : kind == "material" ? &materials
-                  : kind == "object"   ? &objects
-                                       : nullptr;
-    if (!names) return;
-    const auto number = parse_integer(take_word(comment));
-    while (!comment.empty() && is_blank(comment.front())) comment.remove_prefix(1);
-    while (!comment.empty() && is_blank(comment.back())) comment.remove_suffix(1);
-    if (number && !comment.empty()) names->emplace_back(*number, comment);
-  }
-};
-
 struct Header {
   Encoding encoding = Encoding::text;
-  LabelNames labels;
+  PlyLabelNames labels;
   std::vector<Element> elements;
   std::size_t lines = 0;
   std::string_view body;
@@ -143,15 +81,15 @@ Header read_header(std::string_view bytes, MeshBuilder& mesh) {
     } else if (keyword == "property") {
       if (header.elements.empty())
         fail("a property stands before the first element; export the file again");
-      Property property{};
+      PlyProperty property{};
       std::string_view word = take_word(line);
       if (word == "list") {
-        property.count_type = type_of(take_word(line));
-        if (!property.count_type || !is_whole(*property.count_type))
+        property.count_type = ply_type_of(take_word(line));
+        if (!property.count_type || !is_whole_ply_type(*property.count_type))
           fail("the count of a list is of no whole type; export the file again");
         word = take_word(line);
       }
-      const auto type = type_of(word);
+      const auto type = ply_type_of(word);
       if (!type) fail(in_quotes(word) + " is no PLY type; export the file again");
       property.type = *type;
       property.name = take_word(line);
@@ -175,17 +113,17 @@ class TextSource {
  public:
   TextSource(const Header& header, std::string_view name)
       : words_(header.body, name, header.lines + 1) {}
-  double number(Type) { return words_.number("a property"); }
-  std::int64_t integer(Type) { return words_.integer("a list's count or item"); }
+  double number(PlyType) { return words_.number("a property"); }
+  std::int64_t integer(PlyType) { return words_.integer("a list's count or item"); }
   /// NaN where it is no number: for what may be passed over.
-  double number_or_nan(Type) {
+  double number_or_nan(PlyType) {
     return parse_double(words_.required("a property")).value_or(std::nan(""));
   }
-  void skip(Type) { words_.skip("a property"); }
+  void skip(PlyType) { words_.skip("a property"); }
   std::uint64_t bytes_left() const { return words_.bytes_left(); }
   [[noreturn]] void fail(const std::string& what) const { words_.fail(what); }
   // A digit and a blank.
-  static std::uint64_t least_size(Type) { return 2; }
+  static std::uint64_t least_size(PlyType) { return 2; }
   // The last word needs no blank.
   static constexpr std::uint64_t kSlack = 1;
 
@@ -201,43 +139,44 @@ class BinarySource {
         offset_(bytes.size() - header.body.size()),
         name_(name) {}
 
-  double number(Type type) {
+  double number(PlyType type) {
     const char* p = take(type);
     switch (type) {
-      case Type::float32:
+      case PlyType::float32:
         return load<float>(p, big_endian_);
-      case Type::float64:
+      case PlyType::float64:
         return load<double>(p, big_endian_);
       default:
         return static_cast<double>(whole(type, p));
     }
   }
-  double number_or_nan(Type type) { return number(type); }
-  std::int64_t integer(Type type) { return whole(type, take(type)); }
-  void skip(Type type) { take(type); }
+  double number_or_nan(PlyType type) { return number(type); }
+  std::int64_t integer(PlyType type) { return whole(type, take(type)); }
+  void skip(PlyType type) { take(type); }
   std::uint64_t bytes_left() const { return bytes_.size() - offset_; }
   [[noreturn]] void fail(const std::string& what) const { fail_at_byte(name_, offset_, what); }
-  static std::uint64_t least_size(Type type) { return size_of(type); }
+  static std::uint64_t least_size(PlyType type) { return ply_size_of(type); }
   static constexpr std::uint64_t kSlack = 0;
 
  private:
-  const char* take(Type type) {
-    if (bytes_left() < size_of(type)) fail("the file ends within its elements; it is cut short");
+  const char* take(PlyType type) {
+    if (bytes_left() < ply_size_of(type))
+      fail("the file ends within its elements; it is cut short");
     const char* p = bytes_.data() + offset_;
-    offset_ += size_of(type);
+    offset_ += ply_size_of(type);
     return p;
   }
-  std::int64_t whole(Type type, const char* p) const {
+  std::int64_t whole(PlyType type, const char* p) const {
     switch (type) {
-      case Type::int8:
+      case PlyType::int8:
         return load<std::int8_t>(p, big_endian_);
-      case Type::uint8:
+      case PlyType::uint8:
         return load<std::uint8_t>(p, big_endian_);
-      case Type::int16:
+      case PlyType::int16:
         return load<std::int16_t>(p, big_endian_);
-      case Type::uint16:
+      case PlyType::uint16:
         return load<std::uint16_t>(p, big_endian_);
-      case Type::int32:
+      case PlyType::int32:
         return load<std::int32_t>(p, big_endian_);
       default:
         return load<std::uint32_t>(p, big_endian_);
@@ -250,79 +189,6 @@ class BinarySource {
   std::string_view name_;
 };
 
-/// The count of a list, which the file can hold.
-template <class Source>
-std::int64_t list_size(Source& source, const Property& property) {
-  const std::int64_t count = source.integer(*property.count_type);
-  if (count < 0 || static_cast<std::uint64_t>(count) * source.least_size(property.type) >
-                       source.bytes_left() + Source::kSlack)
-    source.fail("a list of " + std::to_string(count) +
-                " items, more than the file holds; it is cut short or not what its header says");
-  return count;
-}
-
-// What is passed over need not be numbers.
-template <class Source>
-void skip_property(Source& source, const Property& property) {
-  const std::int64_t count = property.count_type ? list_size(source, property) : 1;
-  for (std::int64_t k = 0; k < count; ++k) source.skip(property.type);
-}
-
-/// What the numbers of a vertex are for.
-enum Role { kPassedOver = -1, kX, kY, kZ, kRed, kGreen, kBlue, kAlpha, kU, kV, kRoles };
-
-Role role_of(const Property& property) {
-  if (property.count_type) return kPassedOver;
-  constexpr std::pair<std::string_view, Role> kNames[] = {
-      {"x", kX},         {"y", kY},         {"z", kZ},
-      {"red", kRed},     {"green", kGreen}, {"blue", kBlue},
-      {"alpha", kAlpha}, {"r", kRed},       {"g", kGreen},
-      {"b", kBlue},      {"a", kAlpha},     {"diffuse_red", kRed},
-      {"s", kU},         {"t", kV},         {"diffuse_green", kGreen},
-      {"u", kU},         {"v", kV},         {"diffuse_blue", kBlue},
-      {"texture_u", kU}, {"texture_v", kV}, {"diffuse_alpha", kAlpha}};
-  for (const auto& [name, role] : kNames)
-    if (property.name == name) return role;
-  return kPassedOver;
-}
-
-/// What stands for 1 in a colour.
-double most_of(Type type) {
-  switch (type) {
-    case Type::int8:
-    case Type::uint8:
-      return 255.0;
-    case Type::int16:
-    case Type::uint16:
-      return 65535.0;
-    default:
-      return is_whole(type) ? 255.0 : 1.0;
-  }
-}
-
-/// Eight bits are converted by a table.
-class ColorOfBytes {
- public:
-  ColorOfBytes() {
-    for (std::size_t k = 0; k < 256; ++k)
-      linear_[k] = static_cast<float>(linear_from_srgb(static_cast<double>(k) / 255.0));
-  }
-  std::array<float, 4> operator()(const double (&numbers)[kRoles], double most) const {
-    std::array<float, 4> color;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = numbers[static_cast<std::size_t>(kRed) + k];
-      color[k] = most == 255.0 && x >= 0.0 && x <= 255.0 && x == std::floor(x)
-                     ? linear_[static_cast<std::size_t>(x)]
-                     : static_cast<float>(linear_from_srgb(x / most));
-    }
-    color[3] = static_cast<float>(numbers[kAlpha] / most);
-    return color;
-  }
-
- private:
-  float linear_[256];
-};
-
 /// by_corner: what faces have in lists of their own and vertices need not tell.
 struct ByCorner {
   bool texcoords = false, colors = false;
@@ -331,53 +197,53 @@ struct ByCorner {
 template <class Source>
 void read_vertices(Source& source, const Element& element, const ByCorner& by_corner,
                    MeshBuilder& mesh) {
-  std::vector<Role> roles;
-  int found[kRoles] = {};
+  std::vector<PlyRole> roles;
+  int found[kPlyRoles] = {};
   double most = 1.0;
-  for (const Property& property : element.properties) {
-    Role role = role_of(property);
-    if (role >= kRed && found[role] > 0) role = kPassedOver;  // the first counts
+  for (const PlyProperty& property : element.properties) {
+    PlyRole role = ply_role_of(property);
+    if (role >= kPlyRed && found[role] > 0) role = kPlyPassedOver;  // the first counts
     roles.push_back(role);
     if (role >= 0) ++found[role];
-    if (role == kRed) most = most_of(property.type);
+    if (role == kPlyRed) most = ply_most_of(property.type);
   }
   for (int axis = 0; axis < 3; ++axis)
     if (found[axis] != 1)
       source.fail(std::string("the element 'vertex' needs one property '") + "xyz"[axis] +
                   "'; export the file again");
   const bool has_color =
-      !by_corner.colors && found[kRed] > 0 && found[kGreen] > 0 && found[kBlue] > 0;
-  const bool has_texcoord = !by_corner.texcoords && found[kU] > 0 && found[kV] > 0;
-  for (Role& role : roles)
-    if (role >= kU ? !has_texcoord : role >= kRed && !has_color) role = kPassedOver;
-  const ColorOfBytes to_color;
+      !by_corner.colors && found[kPlyRed] > 0 && found[kPlyGreen] > 0 && found[kPlyBlue] > 0;
+  const bool has_texcoord = !by_corner.texcoords && found[kPlyU] > 0 && found[kPlyV] > 0;
+  for (PlyRole& role : roles)
+    if (role >= kPlyU ? !has_texcoord : role >= kPlyRed && !has_color) role = kPlyPassedOver;
+  const PlyColor to_color;
   mesh.reserve(element.count, 0);
-  double numbers[kRoles] = {};
-  numbers[kAlpha] = most;
+  double numbers[kPlyRoles] = {};
+  numbers[kPlyAlpha] = most;
   for (std::uint64_t v = 0; v < element.count; ++v) {
     for (std::size_t k = 0; k < roles.size(); ++k) {
-      const Type type = element.properties[k].type;
-      if (roles[k] == kPassedOver)
-        skip_property(source, element.properties[k]);
+      const PlyType type = element.properties[k].type;
+      if (roles[k] == kPlyPassedOver)
+        skip_ply_property(source, element.properties[k]);
       else
-        numbers[roles[k]] = roles[k] <= kZ ? source.number(type) : source.number_or_nan(type);
+        numbers[roles[k]] = roles[k] <= kPlyZ ? source.number(type) : source.number_or_nan(type);
     }
-    const Index vertex = mesh.add_vertex({numbers[kX], numbers[kY], numbers[kZ]});
+    const Index vertex = mesh.add_vertex({numbers[kPlyX], numbers[kPlyY], numbers[kPlyZ]});
     if (has_color) mesh.attributes().colors.set_of_vertex(vertex, to_color(numbers, most));
     if (has_texcoord)
       mesh.attributes().texcoords.set_of_vertex(
-          vertex, {static_cast<float>(numbers[kU]), static_cast<float>(numbers[kV])});
+          vertex, {static_cast<float>(numbers[kPlyU]), static_cast<float>(numbers[kPlyV])});
   }
 }
 
 /// The list of an element's that names vertices.
 template <class Source>
-const Property& list_of_corners(Source& source, const Element& element) {
-  for (const Property& property : element.properties) {
+const PlyProperty& list_of_corners(Source& source, const Element& element) {
+  for (const PlyProperty& property : element.properties) {
     if (!property.count_type ||
         (property.name != "vertex_indices" && property.name != "vertex_index"))
       continue;
-    if (!is_whole(property.type))
+    if (!is_whole_ply_type(property.type))
       source.fail("the list " + in_quotes(property.name) +
                   " is of no whole type; export the file again");
     return property;
@@ -386,141 +252,22 @@ const Property& list_of_corners(Source& source, const Element& element) {
               " needs a list 'vertex_indices'; export the file again");
 }
 
-/// What faces and strips have beside their corners.
-class FaceAttributes {
- public:
-  FaceAttributes(const Header& header, MeshBuilder& mesh) : header_(header), mesh_(mesh) {}
-
-  /// The lists of corners' values among an element's properties.
-  static bool is_texcoords(const Property& p) { return p.count_type && p.name == "texcoord"; }
-  static bool is_colors(const Property& p) { return p.count_type && p.name == "color"; }
-
-  template <class Source>
-  void read(Source& source, const Property& property) {
-    if (is_texcoords(property)) return read_list(source, property, texcoords_);
-    if (is_colors(property)) return read_list(source, property, colors_);
-    const bool is_number = !property.count_type && is_whole(property.type);
-    const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
-      return is_number && std::find(names.begin(), names.end(), property.name) != names.end();
-    };
-    if (is_one_of({"group", "group_id", "label", "segment", "segment_id"}))
-      read_label(source, property, mesh_.attributes().groups, groups_, header_.labels.groups);
-    else if (is_one_of({"material", "material_index"}))
-      read_label(source, property, mesh_.attributes().materials, materials_,
-                 header_.labels.materials);
-    else if (is_one_of({"object", "object_index"}))
-      read_label(source, property, mesh_.attributes().objects, objects_, header_.labels.objects);
-    else
-      skip_property(source, property);
-  }
-
-  void add_polygon(std::span<const Index> corners) {
-    number_values<2>(
-        texcoords_, corners, mesh_.attributes().texcoords, texcoord_numbers_, [](const double* x) {
-          return std::array<float, 2>{static_cast<float>(x[0]), static_cast<float>(x[1])};
-        });
-    const auto color = [](const double* x) { return color_from_srgb(x[0], x[1], x[2], x[3]); };
-    if (colors_.size() == 3 * corners.size() && !corners.empty()) {  // without alpha
-      colors_.resize(4 * corners.size());
-      for (std::size_t k = corners.size(); k-- > 0;) {
-        for (std::size_t i = 3; i-- > 0;) colors_[4 * k + i] = colors_[3 * k + i];
-        colors_[4 * k + 3] = 1.0;
-      }
-    }
-    number_values<4>(colors_, corners, mesh_.attributes().colors, color_numbers_, color);
-    mesh_.add_polygon(corners, texcoord_numbers_, color_numbers_);
-    texcoords_.clear();
-    colors_.clear();
-    ++faces_;
-  }
-
-  void tell() const {
-    if (misfits_ > 0)
-      mesh_.note(std::to_string(misfits_) +
-                 (misfits_ == 1 ? " list of texture coordinates or colours does"
-                                : " lists of texture coordinates or colours do") +
-                 " not fit the face's corners and " + (misfits_ == 1 ? "is" : "are") +
-                 " passed over (first: face " + std::to_string(first_misfit_) + ")");
-  }
-
- private:
-  template <class Source>
-  static void read_list(Source& source, const Property& property, std::vector<double>& out) {
-    const std::int64_t count = list_size(source, property);
-    out.clear();
-    for (std::int64_t k = 0; k < count; ++k) out.push_back(source.number_or_nan(property.type));
-    if (is_colors(property) && most_of(property.type) > 1.0)
-      for (double& x : out) x /= most_of(property.type);
-  }
-
-  struct Labels {
-    std::map<std::int64_t, Index> numbers;
-    std::int64_t last = -1;
-    Index last_number = kNone;
-  };
-
-  template <class Source>
-  void read_label(Source& source, const Property& property, FaceLabelBuilder& labels, Labels& known,
-                  const std::vector<std::pair<std::int64_t, std::string_view>>& names) {
-    const double label = source.number_or_nan(property.type);
-    if (known.numbers.empty())
-      for (const auto& [number, name] : names)
-        known.numbers.try_emplace(number, labels.number(name));
-    // Below 0, and what is no number: none.
-    const auto number = label >= 0.0 && label < 1e15 ? static_cast<std::int64_t>(label) : -1;
-    if (number != known.last) {
-      known.last = number;
-      const auto found = known.numbers.find(number);
-      if (number < 0)
-        known.last_number = kNone;
-      else if (found != known.numbers.end())
-        known.last_number = found->second;
-      else
-        known.last_number = known.numbers[number] = labels.number(std::to_string(number));
-    }
-    labels.begin(mesh_.face_count(), known.last_number);
-  }
-
-  // Empty where the list does not fit. Neighbours in a face often share nothing: each corner gets
-  // a value of its own, but for one that repeats the last.
-  template <std::size_t N, class Convert>
-  void number_values(const std::vector<double>& list, std::span<const Index> corners,
-                     CornerValueBuilder<N>& values, std::vector<Index>& numbers,
-                     const Convert& convert) {
-    numbers.clear();
-    if (list.empty()) return;
-    if (list.size() != N * corners.size()) {
-      if (misfits_++ == 0) first_misfit_ = faces_;
-      return;
-    }
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      numbers.push_back(values.add_at(corners[k], convert(&list[N * k])));
-  }
-
-  const Header& header_;
-  MeshBuilder& mesh_;
-  std::vector<double> texcoords_, colors_;  // of the face that is read
-  std::vector<Index> texcoord_numbers_, color_numbers_;
-  Labels groups_, materials_, objects_;
-  std::uint64_t faces_ = 0, misfits_ = 0, first_misfit_ = 0;
-};
-
 /// Hands over the corners of each of an element's faces or strips, and to `other` what else they
 /// have.
 template <class Source, class Other, class Visit>
 void read_corners(Source& source, const Element& element, std::uint64_t vertex_count,
                   bool has_restarts, const Other& other, const Visit& visit) {
   if (element.count == 0) return;
-  const Property& list = list_of_corners(source, element);
+  const PlyProperty& list = list_of_corners(source, element);
   std::vector<Index> corners;
   for (std::uint64_t f = 0; f < element.count; ++f) {
     corners.clear();
-    for (const Property& property : element.properties) {
+    for (const PlyProperty& property : element.properties) {
       if (&property != &list) {
         other(property);
         continue;
       }
-      const std::int64_t count = list_size(source, list);
+      const std::int64_t count = ply_list_size(source, list);
       for (std::int64_t k = 0; k < count; ++k) {
         const std::int64_t item = source.integer(list.type);
         if (has_restarts && item == -1) {
@@ -561,19 +308,19 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
     // file can hold is found out before anything is allocated. (One without properties is refused
     // where it is read.)
     std::uint64_t least = 0;
-    for (const Property& property : element.properties)
+    for (const PlyProperty& property : element.properties)
       least += source.least_size(property.count_type ? *property.count_type : property.type);
     if (least > 0 && element.count > (source.bytes_left() + Source::kSlack) / least)
       source.fail("the header promises " + std::to_string(element.count) + " elements " +
                   in_quotes(element.name) + ", more than the file holds; it is cut short");
   }
-  FaceAttributes attributes(header, mesh);
+  PlyFaceAttributes attributes(header.labels, mesh);
   ByCorner by_corner;
   for (const Element& element : header.elements)
-    for (const Property& property : element.properties) {
+    for (const PlyProperty& property : element.properties) {
       if (element.name != "face") continue;
-      by_corner.texcoords = by_corner.texcoords || FaceAttributes::is_texcoords(property);
-      by_corner.colors = by_corner.colors || FaceAttributes::is_colors(property);
+      by_corner.texcoords = by_corner.texcoords || PlyFaceAttributes::is_texcoords(property);
+      by_corner.colors = by_corner.colors || PlyFaceAttributes::is_colors(property);
     }
   for (const Element& element : header.elements) {
     if (element.name == "vertex") {
@@ -582,18 +329,19 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
       read_vertices(source, element, by_corner, mesh);
     } else if (element.name == "face") {
       mesh.reserve(0, element.count);
+      attributes.begin(element.properties);
       read_corners(
           source, element, vertex_count, false,
-          [&](const Property& property) { attributes.read(source, property); },
+          [&](const PlyProperty& property) { attributes.read(source, property); },
           [&](std::span<const Index> corners) { attributes.add_polygon(corners); });
     } else if (element.name == "tristrips") {
       read_corners(
           source, element, vertex_count, true,
-          [&](const Property& property) { skip_property(source, property); },
+          [&](const PlyProperty& property) { skip_ply_property(source, property); },
           [&](std::span<const Index> corners) { add_strip(corners, mesh); });
     } else if (!element.properties.empty()) {
       for (std::uint64_t n = 0; n < element.count; ++n)
-        for (const Property& property : element.properties) skip_property(source, property);
+        for (const PlyProperty& property : element.properties) skip_ply_property(source, property);
     }
   }
   attributes.tell();
