@@ -13,7 +13,8 @@ BAKE_ONLY = {"mimicry_bake", "mimicry_default_bake_options"}
 # What the facade does not reach stays out of the module: a study's tools, callbacks, and other programs' coordinates, as
 # those of a page are the library's.
 NOT_HERE = re.compile(r"mimicry_(target_curves_\w+|strokes_simulate|default_s\w+_options|measure|keypoints|technique_register"
-                      r"|path_finder_\w+|exponential_map_\w+|convention\w*|(frames|placement|positions|axes|mesh)_(in|out)|curve_follow)$")
+                      r"|path_finder_\w+|exponential_map_\w+|convention\w*|mesh_(texcoords|colors|face_labels|label_\w+)"
+                      r"|(frames|placement|positions|axes|mesh)_(in|out)|curve_follow)$")
 BAKE_TOO = re.compile(r"mimicry_(last_error|bytes_\w+|mesh_create|mesh_destroy)$")
 
 

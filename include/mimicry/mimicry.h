@@ -136,7 +136,7 @@ MIMICRY_API mimicry_corner_values mimicry_mesh_texcoords(const mimicry_mesh* mes
 /* Linear red, green, blue and alpha. */
 MIMICRY_API mimicry_corner_values mimicry_mesh_colors(const mimicry_mesh* mesh);
 
-typedef enum mimicry_label_kind {
+typedef enum mimicry_label_kind MIMICRY_INT {
   MIMICRY_GROUPS = 0,
   MIMICRY_MATERIALS = 1,
   MIMICRY_OBJECTS = 2

@@ -33,12 +33,14 @@ const FaceLabels& labels_of(const mimicry_mesh* mesh, mimicry_label_kind kind) {
 
 mimicry_corner_values mimicry_mesh_texcoords(const mimicry_mesh* mesh) {
   const MeshAttributes* attributes = attributes_of(mesh);
-  return attributes ? corner_values(attributes->texcoords) : mimicry_corner_values{nullptr, 0, nullptr};
+  return attributes ? corner_values(attributes->texcoords)
+                    : mimicry_corner_values{nullptr, 0, nullptr};
 }
 
 mimicry_corner_values mimicry_mesh_colors(const mimicry_mesh* mesh) {
   const MeshAttributes* attributes = attributes_of(mesh);
-  return attributes ? corner_values(attributes->colors) : mimicry_corner_values{nullptr, 0, nullptr};
+  return attributes ? corner_values(attributes->colors)
+                    : mimicry_corner_values{nullptr, 0, nullptr};
 }
 
 const int32_t* mimicry_mesh_face_labels(const mimicry_mesh* mesh, mimicry_label_kind kind) {
