@@ -1,23 +1,31 @@
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "io/mesh_writers.h"
 #include "io/number.h"
 
 namespace mimicry {
 namespace {
 
+bool every_corner_has_one(const TriangleMesh& mesh, const std::vector<Index>& of_vertex) {
+  for (const Face& face : mesh.faces())
+    for (const Index v : face)
+      if (of_vertex[at(v)] == kNone) return false;
+  return true;
+}
+
 /// The values of vertices, where OFF can say them: each vertex of a face has one.
 template <std::size_t N>
 std::vector<Index> values_to_write(const TriangleMesh& mesh, const CornerValues<N>& values,
                                    const char* what, const WriteNote& note) {
   if (values.empty()) return {};
-  auto of_vertex = values_of_vertices(mesh, values);
-  if (of_vertex)
-    for (const Face& face : mesh.faces())
-      for (const Index v : face)
-        if (of_vertex && (*of_vertex)[at(v)] == kNone) of_vertex.reset();
-  if (!of_vertex)
-    note(std::string("OFF needs one of each vertex's own, and not every vertex has one; ") + what +
-         " are left out");
-  return of_vertex.value_or(std::vector<Index>());
+  std::optional<std::vector<Index>> of_vertex = values_of_vertices(mesh, values);
+  if (of_vertex && every_corner_has_one(mesh, *of_vertex)) return *std::move(of_vertex);
+  note(std::string("OFF needs one of each vertex's own, and not every vertex has one; ") + what +
+       " are left out");
+  return {};
 }
 
 }  // namespace

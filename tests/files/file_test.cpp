@@ -11,6 +11,7 @@
 #include "files/beside.h"
 #include "files/environment.h"
 #include "files/file_folder.h"
+#include "files/names.h"
 #include "files/output_lock.h"
 #include "files/system.h"
 
