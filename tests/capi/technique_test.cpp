@@ -225,7 +225,7 @@ TEST(CApiTechniques, WhatIsNotSoundIsRefused) {
   wrong("options is NULL", [](Row& r) { r.own.options = nullptr; });
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = -1; });
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = 65; });
-  wrong("bytes of memory", [](Row& r) { r.own.memory_size = std::size_t{1} << 40; });
+  wrong("bytes of memory", [](Row& r) { r.own.memory_size = (std::size_t{1} << 20) + 1; });
   wrong("no known kind", [](Row& r) { r.options[0].kind = static_cast<mimicry_option_kind>(9); });
   wrong("its default", [](Row& r) { r.options[0].defaults[1] = 0.0; });
   wrong("its default", [](Row& r) { r.options[1].defaults[0] = 3.0; });

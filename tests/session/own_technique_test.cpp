@@ -186,6 +186,7 @@ TEST(OwnTechnique, WhatIsNotSoundIsRefused) {
   EXPECT_EQ(techniques().size(), count);
 }
 
+#ifndef __EMSCRIPTEN__  // which has no threads
 TEST(OwnTechnique, AreRegisteredFromSeveralThreadsAtOnce) {
   const std::size_t count = techniques().size();
   std::vector<std::thread> threads;
@@ -200,6 +201,7 @@ TEST(OwnTechnique, AreRegisteredFromSeveralThreadsAtOnce) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(techniques().size(), count + 16);
 }
+#endif
 
 }  // namespace
 }  // namespace mimicry
