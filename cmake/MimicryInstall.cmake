@@ -30,7 +30,7 @@ if(TARGET mimicry_cli)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/web/dist/"
       DESTINATION ${CMAKE_INSTALL_BINDIR}/../share/mimicry/studio OPTIONAL)
     install(CODE "if(NOT EXISTS \"${PROJECT_SOURCE_DIR}/web/dist/index.html\")
-      message(STATUS \"The studio's page is not built and not installed (README: the studio)\")\nendif()")
+      message(STATUS \"The studio's page is not built, and not installed: cmake --preset wasm, then cmake --build --preset wasm\")\nendif()")
   endif()
 endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/THIRD_PARTY.md"

@@ -461,7 +461,7 @@ MIMICRY_API mimicry_status mimicry_mesh_out(const char* convention, const mimicr
 typedef enum mimicry_option_kind MIMICRY_INT {
   MIMICRY_OPTION_BOOLEAN = 0,   /* 0 or 1 */
   MIMICRY_OPTION_NUMBER = 1,    /* lowest to highest */
-  MIMICRY_OPTION_DIRECTION = 2, /* three numbers, not all zero; of any length */
+  MIMICRY_OPTION_DIRECTION = 2, /* three, lowest to highest, not all zero */
   MIMICRY_OPTION_CHOICE = 3     /* the number of one of its choices, from 0 */
 } mimicry_option_kind;
 

@@ -13,7 +13,7 @@
 
 #include "bake/ls_mesh.h"
 #include "bake/mds.h"
-#include "bake/normal_wishes.h"
+#include "bake/normal_constraints.h"
 #include "bake/quality.h"
 #include "bake/samples.h"
 #include "bake/shell.h"
@@ -28,8 +28,8 @@ void check(const BakeOptions& options) {
   const auto refuse = [](const std::string& what) {
     throw Error(ErrorKind::invalid_input, "bake: " + what);
   };
-  if (options.dimension < 3 || options.dimension > 64)
-    refuse("dimension " + std::to_string(options.dimension) + "; it must be 3 to 64");
+  if (options.dimension < 3 || options.dimension > 8)
+    refuse("dimension " + std::to_string(options.dimension) + "; it must be 3 to 8");
   if (options.samples < 10 || options.samples > 20000)
     refuse(std::to_string(options.samples) + " samples; there must be 10 to 20000");
   if (!(options.offset >= 1e-3 && options.offset <= 0.5))
@@ -199,15 +199,15 @@ class LsMeshStage {
   // and where the last digits do not show.
   void turn_normals(Values& values, BakeQuality& quality) {
     constexpr double kLoose = 1e-4;
-    NormalWishes wishes = normal_wishes(mesh_, shell_, values);
+    NormalConstraints constraints = normal_constraints(mesh_, shell_, values);
     const std::vector<Index> all = mesh_vertices();
     const Values on_surface = values.topRows(mesh_.vertex_count());
     LsMeshInput input = of_shell();
     input.fixed = all;
     input.fixed_values = &on_surface;
     input.start = &values;
-    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(wishes.wishes),
-                                     std::move(wishes.values), kMost, kLoose);
+    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(constraints.constraints),
+                                     std::move(constraints.values), kMost, kLoose);
     quality.ls_mesh_iterations += result.iterations;
     quality.hit_a_cap = quality.hit_a_cap || !result.converged;
     values = std::move(result.values);

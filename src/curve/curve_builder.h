@@ -12,7 +12,7 @@ namespace mimicry {
 PieceKind kind_of(PathLabel label);
 
 /// Appends points to a curve as they are drawn, and joins each to the one before by the shortest
-/// path on the surface (geodesic/local_path.h). What has been appended never changes.
+/// path on the surface (geodesic/paths.h). What has been appended never changes.
 class CurveBuilder {
  public:
   explicit CurveBuilder(const Surface& surface);

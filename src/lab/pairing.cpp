@@ -172,7 +172,10 @@ std::vector<PairedGroup> pair_rows(const CsvTable& table, const PairingOptions& 
   }
   for (const auto& [has, wanted] :
        {std::pair{has_a, options.method_a}, std::pair{has_b, options.method_b}})
-    if (!has) fail(name + ": has no row of method '" + wanted + "', only of " + list(methods));
+    if (!has)
+      fail(methods.empty()
+               ? name + ": no row is left to compare"
+               : name + ": has no row of method '" + wanted + "', only of " + list(methods));
 
   std::map<std::string, std::vector<Pair>> by_value;
   std::vector<Pair> all;

@@ -7,7 +7,7 @@
 
 namespace mimicry::lab {
 
-/// The study's number of a technique or shape (study/protocol.h); kNone where it has none.
+/// The study's number of a technique or shape (study/recording.h); kNone where it has none.
 Index number_of_method(std::string_view name);
 Index number_of_shape(std::string_view name);
 

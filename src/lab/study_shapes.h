@@ -18,7 +18,7 @@ struct StudyShapeOptions {
 
 /// A shape of a study with its target curves.
 struct StudyShape {
-  Index number = kNone;  ///< the study's (study/protocol.h); others count on from these
+  Index number = kNone;  ///< the study's (study/recording.h); others count on from these
   const TargetShape* shape = nullptr;
 };
 

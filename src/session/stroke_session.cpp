@@ -1,4 +1,4 @@
-#include <cassert>
+#include <string>
 
 #include <mimicry/base/error.h>
 #include <mimicry/session/stroke_session.h>
@@ -6,16 +6,27 @@
 #include "curve/curve_builder.h"
 
 namespace mimicry {
+namespace {
+
+const Canvas& sound(const Canvas& canvas, const TechniqueInfo& technique) {
+  if (!canvas.target) throw Error(ErrorKind::invalid_input, "session: the canvas has no target");
+  if (technique.needs_bake && !canvas.projector)
+    throw Error(ErrorKind::invalid_input,
+                "technique '" + technique.name +
+                    "' needs the target's bake; bake it, or make the canvas with load_canvas");
+  return canvas;
+}
+
+}  // namespace
 
 StrokeSession::StrokeSession(const Canvas& canvas, const TechniqueInfo& technique,
                              const SessionOptions& options)
-    : canvas_(canvas),
+    : canvas_(sound(canvas, technique)),
       technique_(&technique),
       options_(options),
       own_options_(options.technique.block(technique)),
       memory_(technique.first_memory),
       builder_(std::make_unique<CurveBuilder>(canvas.target.surface())) {
-  assert(!technique.needs_bake || canvas.projector);
   builder_->reserve(options.expected_frames);
 }
 
@@ -56,7 +67,10 @@ FrameStatus StrokeSession::judge(const Frame& frame) {
   const Frame model = to_model(frame, model_to_world_);
   const TechniqueStep step = technique_->step(canvas_, model, own_options_.data(), memory_.data());
   ++answers_[step.answer];
-  if (step.answer == Answer::miss) {
+  // A point that is not on the mesh, of a technique of the user's own, is none.
+  const bool is_point =
+      step.surface.face >= 0 && step.surface.face < canvas_.target.mesh().face_count();
+  if (step.answer == Answer::miss || !is_point) {
     if (options_.misses == MissPolicy::split) builder_->break_here();
     return FrameStatus::missed;
   }

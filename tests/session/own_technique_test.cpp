@@ -186,6 +186,37 @@ TEST(OwnTechnique, WhatIsNotSoundIsRefused) {
   EXPECT_EQ(techniques().size(), count);
 }
 
+TEST(OwnTechnique, APointOffTheMeshIsAMiss) {
+  for (const Index face : {Index{-1}, Index{1000000}}) {
+    TechniqueInfo row = lift_row("test-off");
+    row.step = [face](const Canvas&, const Frame&, const void*, void*) {
+      TechniqueStep step;
+      step.answer = Answer::closest;
+      step.surface = {face, Vec3(1.0, 0.0, 0.0)};
+      return step;
+    };
+    StrokeSession session({Target(make_sphere(4))}, row);
+    session.begin({});
+    EXPECT_EQ(session.add(Frame{}), FrameStatus::missed);
+    EXPECT_TRUE(session.curve().points.empty());
+  }
+}
+
+TEST(StrokeSession, ACanvasWithoutWhatTheTechniqueNeedsIsRefused) {
+  const Target target(make_sphere(4));
+  const auto why = [](const Canvas& canvas, const char* technique) -> std::string {
+    try {
+      StrokeSession session(canvas, find_technique(technique));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(why({}, "snap"), HasSubstr("no target"));
+  EXPECT_THAT(why({target}, "mimicry"), HasSubstr("'mimicry' needs the target's bake"));
+  EXPECT_EQ(why({target}, "snap"), "");
+}
+
 #ifndef __EMSCRIPTEN__  // which has no threads
 TEST(OwnTechnique, AreRegisteredFromSeveralThreadsAtOnce) {
   const std::size_t count = techniques().size();

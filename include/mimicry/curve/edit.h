@@ -32,7 +32,7 @@ struct SmoothOptions {
 /// lengths of their two pieces; strength 1 goes half the way, which takes out a zigzag at once
 /// (farther would mirror it), 0 none. A curve that is a geodesic stays. Ends of the curve and at
 /// gaps and chords stay; a closed curve has none. Points keep frame, time and pen distance;
-/// vertex_normals (#V by 3, unit) give their new normals. Throws Error(invalid_input) for options
+/// their normals are the surface's. Throws Error(invalid_input) for options
 /// out of range. Three paths a point and iteration. progress hears of every few points, stage
 /// "smooth"; where it returns false Error(cancelled) is thrown.
 ProjectedCurve smooth(const ProjectedCurve& curve, const Surface& surface,
@@ -55,8 +55,8 @@ inline constexpr std::size_t kMostResampledPoints = 10'000'000;
 
 /// The curve as `count` points, 2 to kMostResampledPoints, at equal steps of length (`resample`),
 /// joined by shortest paths; broken where a gap lies between two of them. Times and pen distances
-/// are interpolated, a point's frame is that of the last point before it. vertex_normals: #V by 3,
-/// unit. Throws Error(invalid_input) for a count out of range or a curve without points. O(points +
+/// are interpolated, a point's frame is that of the last point before it, its normal the surface's.
+/// Throws Error(invalid_input) for a count out of range or a curve without points. O(points +
 /// crossings) and a path a point. progress as in `smooth`, stage "resample".
 ProjectedCurve resampled(const ProjectedCurve& curve, const Surface& surface, std::size_t count,
                          const ProgressCallback& progress = {});

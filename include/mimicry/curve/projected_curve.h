@@ -87,7 +87,7 @@ struct RefinedCurve {
 /// edge or vertex are moved there, what then is the same place twice is one node, and a crossing of
 /// an edge that the piece starts or ends on is that end: near an edge a rounding would otherwise
 /// count as a turn. Gaps and chords part the curve, and so do pieces that are not connected over
-/// the mesh (crossings of another mesh). half_edges belong to mesh. O(points + crossings).
+/// the mesh (crossings of another mesh). O(points + crossings).
 RefinedCurve refine(const ProjectedCurve& curve, const Surface& surface);
 
 /// The point at length s along a curve, straight within each segment. Gaps and chords have no

@@ -62,7 +62,7 @@ class ExactGeodesics {
   void compute(const SurfacePoint& source, const ExactOptions& options = {});
 
   /// Model units; kInfinity where no source reaches the vertex, or the search stopped before. The
-  /// vertex is one of the mesh's.
+  /// vertex is one of the mesh's. After `compute`.
   double distance(Index vertex) const;
   /// Distance at any surface point. Throws Error(invalid_input) for one off the mesh. O(windows of
   /// its face's edges).

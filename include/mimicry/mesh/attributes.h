@@ -58,7 +58,7 @@ struct FaceLabels {
 /// cache do not look at it.
 struct MeshAttributes {
   CornerValues<2> texcoords;  ///< u to the right, v up: (0, 0) is the image's lower left corner
-  CornerValues<4> colors;     ///< linear red, green, blue (of sRGB's primaries) and alpha; 0 to 1
+  CornerValues<4> colors;     ///< linear red, green, blue (of sRGB's primaries) and alpha
   FaceLabels groups, materials, objects;
 
   bool empty() const {

@@ -55,8 +55,9 @@ class CurveBuilder;
 /// prepared for it. Not thread-safe; sessions on the same target are independent of each other.
 class StrokeSession {
  public:
-  /// Throws Error(invalid_input) where the options are another technique's. technique: lives as
-  /// long as the session; those of the registry live as long as the program.
+  /// Throws Error(invalid_input) where the options are another technique's, the canvas has no
+  /// target or not the bake that the technique needs. technique: outlives the session, as listed
+  /// ones do.
   StrokeSession(const Canvas& canvas, const TechniqueInfo& technique,
                 const SessionOptions& options = {});
   ~StrokeSession();
@@ -65,9 +66,9 @@ class StrokeSession {
 
   /// Starts a stroke; the last one's curve is forgotten.
   void begin(const Similarity& model_to_world);
-  /// frame: world. Never throws. Within `expected_frames` nothing is allocated, but where the curve
-  /// jumps across the object or crosses more than 16 edges a frame. A frame after `end` and before
-  /// the next `begin` is rejected.
+  /// frame: world. Throws what the technique throws: none of ours does. Within `expected_frames`
+  /// nothing is allocated, but where the curve jumps across the object or crosses more than 16
+  /// edges a frame. A frame after `end` and before the next `begin` is rejected.
   FrameStatus add(const Frame& frame);
   /// Ends the stroke; the curve stays readable until the next `begin`.
   void end() { drawing_ = false; }

@@ -79,10 +79,10 @@ class Target {
   /// Unit normal, interpolated between the vertices.
   Vec3 normal(const SurfacePoint& p) const { return surface_.normal(p); }
 
-  /// Moves the vertices (#V of the caller's mesh) of this target and all its copies: refits the
-  /// hierarchy, the normals and the boxes, allocates nothing. Nobody may read it meanwhile. Throws,
-  /// and changes nothing, where the count differs or the constructor would refuse the positions.
-  /// O(#F).
+  /// Moves the vertices (#V of the caller's mesh) of this target and all its copies: refits what it
+  /// holds, allocates nothing. Nobody may read it meanwhile. Throws, and changes nothing, where the
+  /// count differs or the constructor would refuse the positions. A bake is of one shape: bake
+  /// anew what has moved. O(#F).
   void update_positions(std::span<const Vec3> positions);
 
   /// Heap memory held, by all copies together.

@@ -30,7 +30,7 @@ struct Pose {
 
 /// One 6-DoF sample. In a stroke: right-handed world, y up, metres. In a technique: the target's
 /// own coordinates and units (`to_model`). Other conventions are converted at the border
-/// (stroke/convention.h).
+/// (`CoordinateConvention`).
 struct Frame {
   double time_s = 0.0;  ///< on any clock; must not run backwards inside a stroke
   Pose head;
@@ -99,15 +99,15 @@ struct Intention {
   std::vector<SurfacePoint> points;
 };
 
-/// A recorded stroke: what the devices did while the trigger was held, on one target.
-/// Says of a stroke that a program made it, and how to make it again.
+/// Says of a stroke that a program made it, and how to make it again: the same program gives the
+/// same stroke.
 struct Simulation {
   std::string program;     ///< with its version: "mimicry 0.1.0"
   std::uint64_t seed = 0;  ///< of all that is random, as it was given to the program
   std::string technique;   ///< whose ink the simulated person saw (closed loop); empty: none
 };
 
-struct Stroke {
+struct Stroke {  // what the devices did while the trigger was held, on one target
   std::string id;
   std::string target;         ///< name of the mesh that was drawn on
   Similarity model_to_world;  ///< where and how large the target stood

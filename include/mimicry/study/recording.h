@@ -98,11 +98,14 @@ struct RecordedFrame {
   Vec3 spray = -Vec3::UnitZ();  ///< SD, the nozzle's direction
 };
 
+/// Without an alignment that would depend on the compiler's flags.
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
+
 /// What was drawn without a break.
 struct RecordedPiece {
   std::vector<RecordedFrame> frames;
-  std::string method;                                            ///< M (`method_number`)
-  Eigen::Matrix4d model_to_world = Eigen::Matrix4d::Identity();  ///< uniform scale, metres
+  std::string method;                            ///< M (`method_number`)
+  Matrix4 model_to_world = Matrix4::Identity();  ///< uniform scale, metres
 };
 
 struct RecordedStroke {

@@ -72,7 +72,7 @@ struct TechniqueInfo;
 enum class OptionKind : std::uint8_t {
   boolean,    ///< bool
   number,     ///< double
-  direction,  ///< three doubles, not all zero; of any length
+  direction,  ///< three doubles, lowest to highest, not all zero
   choice,     ///< an enumeration of 32 bits, its values counted from 0
 };
 
@@ -101,8 +101,8 @@ struct OptionDetails {
   bool always_listed = true;
 };
 
-/// A member of the block `Block` as an option: bool, double, Vec3 or std::array<double, 3>, or an
-/// enumeration of 32 bits with `choices`. The member may be a base's. Numbers are 0 to 1 where
+/// A member of the struct of options as an option: bool, double, Vec3 or std::array<double, 3>, or
+/// an enumeration of 32 bits with `choices`. The member may be a base's. Numbers are 0 to 1 where
 /// nothing else is said, directions -1 to 1.
 template <class TechniqueOptions, class Owner, class Value>
 OptionInfo option(std::string name, Value Owner::*member, std::string description,
@@ -156,7 +156,7 @@ class OptionValue {
   std::size_t size_ = 1;
 };
 
-/// TechniqueOptions of one technique. As they are made they stand for the defaults of whatever
+/// The options of one technique. As they are made they stand for the defaults of whatever
 /// technique they are given to.
 class TechniqueOptions {
  public:

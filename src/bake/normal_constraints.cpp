@@ -1,4 +1,4 @@
-#include "bake/normal_wishes.h"
+#include "bake/normal_constraints.h"
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +15,7 @@
 namespace mimicry {
 namespace {
 
-// The strength of a wish, over the square root of a tetrahedron's size: derivatives are then
+// The strength of a constraint, over the square root of a tetrahedron's size: derivatives are then
 // weighed against second differences as these are, whatever the size. More makes tangential motion
 // less even, less leaves more of the slide.
 constexpr double kStrength = 5.0;
@@ -84,7 +84,8 @@ class OnSurface {
 
 }  // namespace
 
-NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const Values& values) {
+NormalConstraints normal_constraints(const TriangleMesh& mesh, const Shell& shell,
+                                     const Values& values) {
   const Eigen::Index dimension = values.cols();
   assert(!shell.is_lattice && dimension <= kDimension);
   const Values of_mesh = values.topRows(mesh.vertex_count());
@@ -94,7 +95,7 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
   const OnSurface on_surface(mesh, shell);
 
-  NormalWishes result;
+  NormalConstraints result;
   std::vector<double> rows;
   for (const Tet& t : shell.tets) {
     std::optional<std::array<Vec3, 4>> area;
@@ -110,12 +111,12 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
 
       if (!area) area = area_vectors(shell.positions, t);
       const double volume6 = (*area)[3].dot(position(3) - position(0));
-      SoftConstraint wish;
+      SoftConstraint constraint;
       Vec8 along = Vec8::Zero();  // the derivative along the normal
       for (std::size_t j = 0; j < 4; ++j) {
         const double weight = (*area)[j].dot(normal) / volume6;
-        wish.vertices[j] = t[j];
-        wish.weights[static_cast<Eigen::Index>(j)] = weight;
+        constraint.vertices[j] = t[j];
+        constraint.weights[static_cast<Eigen::Index>(j)] = weight;
         along.head(dimension) += weight * values.row(t[j]).transpose();
       }
       // Rows of an interpolated basis are not quite orthonormal.
@@ -125,14 +126,14 @@ NormalWishes normal_wishes(const TriangleMesh& mesh, const Shell& shell, const V
       second -= first.dot(second) * first;
       second.normalize();
       along -= first.dot(along) * first + second.dot(along) * second;
-      wish.strength = kStrength * std::sqrt(std::cbrt(volume6));
-      wish.row = static_cast<Index>(result.wishes.size());
-      result.wishes.push_back(wish);
+      constraint.strength = kStrength * std::sqrt(std::cbrt(volume6));
+      constraint.row = static_cast<Index>(result.constraints.size());
+      result.constraints.push_back(constraint);
       rows.insert(rows.end(), along.data(), along.data() + dimension);
     }
   }
   result.values = Eigen::Map<const Values>(
-      rows.data(), static_cast<Eigen::Index>(result.wishes.size()), dimension);
+      rows.data(), static_cast<Eigen::Index>(result.constraints.size()), dimension);
   return result;
 }
 
