@@ -46,7 +46,8 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'ring.obj');
     await page.evaluate(() => window.studio.bake());
     await expect.poll(() => messages(page), { timeout: 25000 }).toContainEqual(expect.stringContaining('is prepared'));
-    expect(readdirSync(data, { recursive: true }).some((name) => String(name).endsWith('.mimicry'))).toBe(true);
+    // The server sends a bake before it keeps it.
+    await expect.poll(() => readdirSync(data, { recursive: true }).some((name) => String(name).endsWith('.mimicry'))).toBe(true);
     await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
     await stroke(page, [[390, 190], [400, 220], [395, 250]]);
     await expect.poll(async () => (await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry']);
