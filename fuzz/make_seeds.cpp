@@ -77,8 +77,7 @@ void drawings() {
   // The mesh that curves_fuzz reads curves for.
   const TriangleMesh box = make_box(1, 1, 1, Vec3::Ones());
   const Target target(box);
-  Canvas canvas;
-  canvas.target = &target;
+  const Canvas canvas{target};
   const Stroke stroke = some_stroke();
   CurveSet set{"box", {}};
   for (const TechniqueInfo& technique : techniques())
@@ -86,7 +85,7 @@ void drawings() {
       CurveRecord record;
       record.stroke = stroke.id;
       record.technique = technique.name;
-      record.curve = project(canvas, technique, stroke);
+      record.curve = project(canvas, technique, stroke).curve;
       set.curves.push_back(std::move(record));
     }
   keep("curves", "all", write_curves_json(set, box));
@@ -113,12 +112,11 @@ void studies() {
   keep("study_recording", "sequence", "s" + sequence);
 
   const Target target(make_box(1, 1, 1, Vec3::Ones()));
-  Canvas canvas;
-  canvas.target = &target;
+  const Canvas canvas{target};
   const Stroke drawn = some_stroke();
   std::vector<RecordedStroke> recorded;
   for (const char* name : {"spraycan", "head-centric", "snap"})
-    recorded.push_back(record(drawn, project(canvas, find_technique(name), drawn), "Spray"));
+    recorded.push_back(record(drawn, project(canvas, find_technique(name), drawn).curve, "Spray"));
   const std::string recording = write_recording(recorded);
   keep("study_recording", "recording", "r" + recording);
   TargetCurve across;  // a face

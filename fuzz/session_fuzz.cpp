@@ -101,8 +101,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   model_to_world.scale = std::pow(2.0, placed % 16 - 8);
 
   Canvas canvas;
-  canvas.target = &*target;
-  canvas.projector = projector ? &*projector : nullptr;
+  canvas.target = *target;
+  if (projector) canvas.projector = *projector;
   for (const TechniqueInfo& technique : techniques()) {
     if (technique.needs_bake && !projector) continue;
     SessionOptions options;
