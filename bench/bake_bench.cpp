@@ -15,10 +15,11 @@ extern "C" {
 }
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/bake/delaunay.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::bake {
+#include "bake/delaunay.h"
+
+namespace mimicry {
 namespace {
 
 std::vector<GridPoint> random_points(std::int64_t count) {
@@ -101,10 +102,10 @@ void whole(benchmark::State& state, const char* shape, int resolution, int threa
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry
 
 int main(int argc, char** argv) {
-  using namespace mimicry::bake;
+  using namespace mimicry;
   benchmark::Initialize(&argc, argv);
   for (const std::int64_t points : {32000, 259000}) {
     benchmark::RegisterBenchmark("delaunay", delaunay)

@@ -14,13 +14,13 @@
 #include <unistd.h>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "files/file.h"
 #include "messy/messy_meshes.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
       "iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   bool all_good = true;
   if (which.ends_with(".off")) {
-    all_good = measure(which, io::read_mesh(files::read_file(which), io::MeshFormat::off, which));
+    all_good = measure(which, read_mesh(read_file(which), MeshFormat::off, which));
   } else if (which == "shapes") {
     for (const ShapeInfo& shape : builtin_shapes())
       all_good = measure(std::string(shape.name), make_shape(shape.name)) && all_good;
@@ -109,8 +109,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry
 
 int main(int argc, char** argv) {
-  return mimicry::bake::run(argc, argv);
+  return mimicry::run(argc, argv);
 }

@@ -21,10 +21,10 @@
 
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/parallel.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 #include <mimicry/technique/technique.h>
 
 #include "study_mesh.h"
@@ -40,29 +40,29 @@ constexpr double kStep = 1e-3;           // metres
 struct Scene {
   std::string name;
   bool is_study;
-  spatial::Target target;
-  embedding::SmoothProjector projector;
-  std::vector<stroke::Intention> curves;
+  Target target;
+  SmoothProjector projector;
+  std::vector<Intention> curves;
   Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), 1.0};
 
   Scene(std::string n, bool study, const TriangleMesh& mesh, int threads)
       : name(std::move(n)),
         is_study(study),
         target(mesh),
-        projector(bake::bake(mesh, {}, threads), target) {}
+        projector(mimicry::bake(mesh, {}, threads), target) {}
 };
 
 struct Way {
   std::string label;
-  const technique::TechniqueInfo* info;
-  technique::Options options;
+  const TechniqueInfo* info;
+  TechniqueOptions options;
 };
 
 struct Jump {
   double ratio = 0.0, pen_mm = 0.0, curve_mm = 0.0, off_percent = 0.0;
   std::size_t curve = 0, frame = 0;
   int seed = 0;
-  technique::Answer before{}, after{};
+  Answer before{}, after{};
 };
 
 // Of one technique on strokes of one shape.
@@ -93,23 +93,26 @@ class Drawing {
   Drawing(const Scene& scene, const Way& way, std::size_t curve, int seed)
       : scene_(scene),
         way_(way),
-        canvas_{&scene.target, scene.place.scale, &scene.projector},
+        canvas_{scene.target, scene.place.scale, scene.projector},
         curve_(curve),
-        seed_(seed) {}
+        seed_(seed),
+        memory_(way.info->first_memory) {}
 
-  std::optional<Vec3> add(const stroke::Frame& world) {
-    const technique::Step step =
-        way_.info->step(canvas_, memory_, to_model(world, scene_.place), way_.options);
+  std::optional<Vec3> add(const Frame& world) {
+    const Frame frame = to_model(world, scene_.place);
+    const TechniqueStep step =
+        way_.info->step(canvas_, frame, way_.options.block(*way_.info).data(), memory_.data());
     ++frame_;
-    if (step.answer == technique::Answer::miss) return std::nullopt;
+    if (step.answer == Answer::miss) return std::nullopt;
     ++tally_.points;
-    if (step.answer >= technique::Answer::outside_shell) ++tally_.fallbacks;
-    if (memory_.anchored) {
+    if (step.answer >= Answer::outside_shell) ++tally_.fallbacks;
+    const Vec3& pen = frame.controller.position;
+    if (last_point_) {
       const double scale = scene_.place.scale;
-      const double dp = scale * (step.memory.pen - memory_.pen).norm();
-      const double dq = scale * (step.position - memory_.position).norm();
+      const double dp = scale * (pen - last_pen_).norm();
+      const double dq = scale * (step.position - *last_point_).norm();
       if (dp >= kLeastMotion) {
-        const Vec3 r = memory_.position + (step.memory.pen - memory_.pen);
+        const Vec3 r = *last_point_ + (pen - last_pen_);
         const Jump jump{dq / dp,    1e3 * dp,
                         1e3 * dq,   100.0 * (r - step.position).norm() / scene_.target.diagonal(),
                         curve_,     frame_ - 1,
@@ -121,7 +124,8 @@ class Drawing {
       }
     }
     last_ = step.answer;
-    memory_ = step.memory;
+    last_pen_ = pen;
+    last_point_ = step.position;
     return scene_.place.point(step.position);
   }
   const Tally& tally() const { return tally_; }
@@ -129,28 +133,30 @@ class Drawing {
  private:
   const Scene& scene_;
   const Way& way_;
-  technique::Canvas canvas_;
+  Canvas canvas_;
   std::size_t curve_;
   int seed_;
-  technique::Memory memory_;
-  technique::Answer last_ = technique::Answer::miss;
+  TechniqueMemory memory_;
+  Vec3 last_pen_ = Vec3::Zero();
+  std::optional<Vec3> last_point_;
+  Answer last_ = Answer::miss;
   std::size_t frame_ = 0;
   Tally tally_;
 };
 
 // The same hand's path in steps of kStep.
-std::vector<stroke::Frame> even_steps(const std::vector<stroke::Frame>& frames) {
-  std::vector<stroke::Frame> result = {frames.front()};
+std::vector<Frame> even_steps(const std::vector<Frame>& frames) {
+  std::vector<Frame> result = {frames.front()};
   double left = kStep;
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    const stroke::Frame &a = frames[i - 1], &b = frames[i];
+    const Frame &a = frames[i - 1], &b = frames[i];
     const double length = (b.controller.position - a.controller.position).norm();
     double at = left;
     for (; at <= length; at += kStep) {
       const double t = at / length;
-      stroke::Frame f = a;
+      Frame f = a;
       f.time_s = a.time_s + t * (b.time_s - a.time_s);
-      for (const auto pose : {&stroke::Frame::head, &stroke::Frame::controller}) {
+      for (const auto pose : {&Frame::head, &Frame::controller}) {
         (f.*pose).position = (1.0 - t) * (a.*pose).position + t * (b.*pose).position;
         (f.*pose).orientation = (a.*pose).orientation.slerp(t, (b.*pose).orientation);
       }
@@ -170,20 +176,18 @@ std::vector<Tally> draw_all(const Scene& scene, const std::vector<Way>& ways, Ha
   parallel_for(strokes, threads, [&](std::size_t s) {
     const std::size_t c = s / static_cast<std::size_t>(seeds);
     const int seed = static_cast<int>(s % static_cast<std::size_t>(seeds)) + 1;
-    const stroke::Intention& curve = scene.curves[c];
-    std::vector<stroke::Frame> frames;
+    const Intention& curve = scene.curves[c];
+    std::vector<Frame> frames;
     if (hand != Hand::closed)
       frames =
-          study::simulate(scene.target, curve, scene.place, {}, static_cast<std::uint64_t>(seed))
-              .frames;
+          simulate(scene.target, curve, scene.place, {}, static_cast<std::uint64_t>(seed)).frames;
     if (hand == Hand::even) frames = even_steps(frames);
     for (const Way& way : ways) {
       Drawing drawing(scene, way, c, seed);
       if (hand == Hand::closed)
-        study::simulate_closed_loop(scene.target, curve, scene.place, {},
-                                    static_cast<std::uint64_t>(seed),
-                                    [&](const stroke::Frame& f) { return drawing.add(f); });
-      for (const stroke::Frame& f : frames) drawing.add(f);
+        simulate_closed_loop(scene.target, curve, scene.place, {}, static_cast<std::uint64_t>(seed),
+                             [&](const Frame& f) { return drawing.add(f); });
+      for (const Frame& f : frames) drawing.add(f);
       each[s].push_back(drawing.tally());
     }
   });
@@ -198,8 +202,7 @@ void print_jump(const Scene& scene, const Way& way, const Jump& j) {
       "    %-14s %-24s curve %2zu seed %d frame %3zu: %6.2f (pen %.2f mm, curve %.2f mm, "
       "%.2f %% of the diagonal off r), %s after %s\n",
       scene.name.c_str(), way.label.c_str(), j.curve, j.seed, j.frame, j.ratio, j.pen_mm,
-      j.curve_mm, j.off_percent, technique::answer_name(j.after).data(),
-      technique::answer_name(j.before).data());
+      j.curve_mm, j.off_percent, answer_name(j.after).data(), answer_name(j.before).data());
 }
 
 void sweep(const std::vector<std::unique_ptr<Scene>>& scenes, const std::vector<Way>& ways,
@@ -240,7 +243,7 @@ void compare_rates(const std::vector<std::unique_ptr<Scene>>& scenes, const std:
     double apart_mm;
     std::string where;
   };
-  study::SimulationOptions options;
+  SimulationOptions options;
   options.rate_hz = 720;
   std::vector<std::vector<End>> ends(ways.size());
   for (const auto& scene : scenes) {
@@ -249,8 +252,8 @@ void compare_rates(const std::vector<std::unique_ptr<Scene>>& scenes, const std:
     parallel_for(strokes, threads, [&](std::size_t s) {
       const std::size_t c = s / static_cast<std::size_t>(seeds);
       const int seed = static_cast<int>(s % static_cast<std::size_t>(seeds)) + 1;
-      const auto frames = study::simulate(scene->target, scene->curves[c], scene->place, options,
-                                          static_cast<std::uint64_t>(seed))
+      const auto frames = simulate(scene->target, scene->curves[c], scene->place, options,
+                                   static_cast<std::uint64_t>(seed))
                               .frames;
       each[s].resize(ways.size());
       for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -322,15 +325,13 @@ int main(int argc, char** argv) {
 
   std::vector<std::unique_ptr<Scene>> study_scenes, built_in;
   try {
-    const auto set =
-        io::read_targets(files::read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
-    for (const study::TargetShape& shape : set.shapes) {
+    const auto set = read_targets(read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
+    for (const TargetShape& shape : set.shapes) {
       const std::string name = "study:" + shape.name;
       const auto mesh = bench::study_mesh(shape.name);
       if (!mesh || !is_wanted(name)) continue;
       auto scene = std::make_unique<Scene>(name, true, *mesh, threads);
-      for (const study::TargetCurve& c : shape.curves)
-        scene->curves.push_back({"", false, c.points});
+      for (const TargetCurve& c : shape.curves) scene->curves.push_back({"", false, c.points});
       scene->place.scale = shape.scale;
       study_scenes.push_back(std::move(scene));
     }
@@ -341,24 +342,26 @@ int main(int argc, char** argv) {
     const std::string name(info.name);
     if (!is_wanted(name)) continue;
     auto scene = std::make_unique<Scene>(name, false, make_shape(name), threads);
-    scene->curves = study::intended_curves(name, scene->target);
+    scene->curves = intended_curves(name, scene->target);
     scene->place.scale = info.metres_per_unit;
     built_in.push_back(std::move(scene));
   }
 
-  technique::Options soft;
-  soft.soft_anchor.on = 1.0;
   std::vector<Way> anchored;
-  for (const auto& info : technique::techniques())
+  for (const auto& info : techniques())
     if (info.anchored) anchored.push_back({std::string(info.name), &info, {}});
-  const auto& mimicry = technique::find_technique("mimicry");
-  const auto& live = technique::find_technique("mimicry-live");
-  anchored.push_back({"mimicry soft", &mimicry, soft});
-  anchored.push_back({"mimicry-live soft", &live, soft});
+  const auto& mimicry = find_technique("mimicry");
+  const auto& live = find_technique("mimicry-live");
+  const double on = 1.0;
+  TechniqueOptions mimicry_soft, live_soft;
+  set_option(mimicry, mimicry_soft, "soft-anchor", {&on, 1});
+  set_option(live, live_soft, "soft-anchor", {&on, 1});
+  anchored.push_back({"mimicry soft", &mimicry, mimicry_soft});
+  anchored.push_back({"mimicry-live soft", &live, live_soft});
   const std::vector<Way> main_ways = {{"mimicry", &mimicry, {}},
                                       {"mimicry-live", &live, {}},
-                                      {"mimicry soft", &mimicry, soft},
-                                      {"mimicry-live soft", &live, soft}};
+                                      {"mimicry soft", &mimicry, mimicry_soft},
+                                      {"mimicry-live soft", &live, live_soft}};
 
   const auto is_due = [&](const char* part) { return only.empty() || only == part; };
   if (!study_scenes.empty() && is_due("open")) {

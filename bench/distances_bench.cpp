@@ -11,10 +11,10 @@
 
 #include <mimicry/base/random.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/fast_marching.h>
-#include <mimicry/geodesic/site.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "geodesic/fast_marching.h"
+#include "geodesic/site.h"
 #include "heat_method.h"
 #include "study_mesh.h"
 
@@ -23,20 +23,20 @@ namespace {
 using namespace mimicry;
 
 struct Exact {
-  explicit Exact(const TriangleMesh& mesh) : edges(mesh), geodesics(mesh, edges) {}
+  explicit Exact(const TriangleMesh& mesh) : surface(Surface::as_given(mesh)), geodesics(surface) {}
   void distances(Index source, std::span<double> out) {
-    geodesics.compute(geodesic::vertex_point(edges, source));
+    geodesics.compute(vertex_point(surface.half_edges(), source));
     for (std::size_t v = 0; v < out.size(); ++v) out[v] = geodesics.distance(static_cast<Index>(v));
   }
-  HalfEdges edges;
-  geodesic::ExactGeodesics geodesics;
+  Surface surface;
+  ExactGeodesics geodesics;
 };
 
 struct Marching {
   explicit Marching(const TriangleMesh& mesh) : march(mesh) {}
   void distances(Index source, std::span<double> out) { march.distances(source, out, scratch); }
-  geodesic::FastMarching march;
-  geodesic::FastMarching::Scratch scratch;
+  FastMarching march;
+  FastMarching::Scratch scratch;
 };
 
 // Relative errors; next to the source, within 1 % of the diagonal, they are relative to that 1 %.

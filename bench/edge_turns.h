@@ -8,6 +8,8 @@
 
 #include <mimicry/embedding/smooth_projector.h>
 
+#include "embedding/projection.h"
+
 namespace mimicry::bench {
 
 /// How much a curve of projected points may turn where it crosses the mesh's edges, radians: the
@@ -18,10 +20,10 @@ struct EdgeTurns {
 
 // Near the surface a projected point x moves by dx in its face with T dx = T dy; T is the same on
 // both sides of an edge.
-inline EdgeTurns edge_turns(const embedding::SmoothProjector& projector) {
+inline EdgeTurns edge_turns(const SmoothProjector& projector) {
   const TriangleMesh& mesh = projector.target().mesh();
   const HalfEdges& edges = projector.target().half_edges();
-  const phong::PhongSurface& surface = projector.surface();
+  const PhongSurface& surface = projector.projection().surface();
   // Coordinates along the edge and to the left of it, of the edge and a side.
   const auto layout = [](const auto& edge, const auto& side, double sign) {
     const double along = side.dot(edge) / edge.norm();
@@ -33,7 +35,7 @@ inline EdgeTurns edge_turns(const embedding::SmoothProjector& projector) {
   for (Index h = 0; h < edges.count(); ++h) {
     const Index t = edges.twin(h);
     if (t < h) continue;
-    const auto in_embedding_at = [&](Index half_edge, Index step) -> phong::Vec8 {
+    const auto in_embedding_at = [&](Index half_edge, Index step) -> Vec8 {
       return surface.position({half_edge / 3, Vec3::Unit((half_edge % 3 + step) % 3)});
     };
     const auto in_space_at = [&](Index half_edge, Index step) -> Vec3 {
@@ -41,9 +43,9 @@ inline EdgeTurns edge_turns(const embedding::SmoothProjector& projector) {
     };
     SurfacePoint middle{h / 3, Vec3::Constant(0.5)};
     middle.bary[(h + 2) % 3] = 0.0;
-    const phong::Basis plane = surface.tangent_plane(middle);
-    const phong::Vec8 a8 = in_embedding_at(h, 0), edge8 = in_embedding_at(h, 1) - a8,
-                      l8 = in_embedding_at(h, 2) - a8, r8 = in_embedding_at(t, 2) - a8;
+    const Basis plane = surface.tangent_plane(middle);
+    const Vec8 a8 = in_embedding_at(h, 0), edge8 = in_embedding_at(h, 1) - a8,
+               l8 = in_embedding_at(h, 2) - a8, r8 = in_embedding_at(t, 2) - a8;
     const Vec3 a3 = in_space_at(h, 0), edge3 = in_space_at(h, 1) - a3, l3 = in_space_at(h, 2) - a3,
                r3 = in_space_at(t, 2) - a3;
     Eigen::Matrix2d from, to;

@@ -9,18 +9,17 @@
 #include <mimicry/base/random.h>
 #include <mimicry/geodesic/exact.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/geodesic/straightest.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
+#include "geodesic/site.h"
 #include "study_mesh.h"
 
 namespace {
 
 using namespace mimicry;
-using namespace mimicry::geodesic;
+using namespace mimicry;
 
 std::optional<TriangleMesh> bunny() {
   return bench::study_mesh("bunny");
@@ -28,7 +27,8 @@ std::optional<TriangleMesh> bunny() {
 
 // Each face cut into four, without smoothing: the same surface, so the same distances.
 TriangleMesh refined(const TriangleMesh& mesh) {
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
   std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
   std::vector<Index> middles(static_cast<std::size_t>(edges.count()), kNone);
   const auto middle = [&](Index h) {
@@ -60,8 +60,9 @@ SurfacePoint random_point(const TriangleMesh& mesh, Random& random, Index face) 
 }
 
 void one_to_all(benchmark::State& state, const TriangleMesh& mesh) {
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   Random random(1);
   for (auto _ : state) {
     const auto v =
@@ -103,7 +104,7 @@ void LocalPathBunny(benchmark::State& state) {
     state.SkipWithError("no study data");
     return;
   }
-  const HalfEdges edges(*mesh);
+  const Surface surface = Surface::as_given(*mesh);
   const double apart = static_cast<double>(state.range(0)) * 1e-4 / 0.6 * diagonal(*mesh);
   Random random(2);
   std::vector<std::pair<SurfacePoint, SurfacePoint>> pairs;
@@ -112,10 +113,10 @@ void LocalPathBunny(benchmark::State& state) {
         static_cast<Index>(random.below(static_cast<std::uint32_t>(mesh->face_count())));
     const SurfacePoint a = random_point(*mesh, random, face);
     const Vec3 direction(random.normal(), random.normal(), random.normal());
-    const Trace trace = trace_straightest(*mesh, edges, a, direction, apart);
+    const Trace trace = trace_straightest(surface, a, direction, apart);
     if (trace.stop == TraceStop::complete) pairs.emplace_back(a, trace.end);
   }
-  LocalPathFinder finder(*mesh, edges);
+  LocalPathFinder finder(surface);
   std::vector<Crossing> crossings;
   std::size_t i = 0;
   std::size_t proven = 0;
@@ -148,9 +149,8 @@ void ExponentialMapBunny(benchmark::State& state) {
     state.SkipWithError("no study data");
     return;
   }
-  const HalfEdges edges(*mesh);
-  const std::vector<Vec3> normals = angle_weighted_normals(*mesh);
-  DiscreteExponentialMap map(*mesh, edges, normals);
+  const Surface surface = Surface::as_given(*mesh);
+  DiscreteExponentialMap map(surface);
   Random random(3);
   std::size_t vertices = 0;
   for (auto _ : state) {

@@ -15,14 +15,15 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/files/file.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
-#include <mimicry/study/polyline.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 #include <mimicry/technique/technique.h>
+
+#include "files/file.h"
+#include "study/polyline.h"
 
 namespace {
 
@@ -34,15 +35,15 @@ constexpr double kLeastMotion = 0.5e-3;  // metres; of shorter steps noise decid
 
 struct Scene {
   std::string name;
-  spatial::Target target;
-  std::vector<stroke::Intention> curves;
+  Target target;
+  std::vector<Intention> curves;
   double scale;
 };
 
 struct Way {
   const char* label;
-  const technique::TechniqueInfo* info;
-  technique::Options options;
+  const TechniqueInfo* info;
+  TechniqueOptions options;
 };
 
 struct Outcome {
@@ -65,49 +66,54 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-void draw(const Scene& scene, const Way& way, const stroke::Stroke& stroke, Outcome& outcome) {
+void draw(const Scene& scene, const Way& way, const Stroke& stroke, Outcome& outcome) {
   const Similarity& place = stroke.model_to_world;
-  const technique::Canvas canvas{&scene.target, place.scale};
-  std::vector<stroke::Frame> frames;
-  for (const stroke::Frame& f : stroke.frames) frames.push_back(stroke::to_model(f, place));
+  const Canvas canvas{scene.target, place.scale};
+  std::vector<Frame> frames;
+  for (const Frame& f : stroke.frames) frames.push_back(to_model(f, place));
   std::vector<double> least(frames.size(), kInfinity);
   std::vector<Vec3> drawn, intended;
   for (int pass = 0; pass < kPasses; ++pass) {
-    technique::Memory memory;
+    TechniqueMemory memory = way.info->first_memory;
+    const Block& options = way.options.block(*way.info);
+    std::optional<Vec3> last_point;
+    Vec3 last_pen = Vec3::Zero();
     const bool first_pass = pass == 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const auto start = Clock::now();
-      const technique::Step step = way.info->step(canvas, memory, frames[i], way.options);
+      const TechniqueStep step = way.info->step(canvas, frames[i], options.data(), memory.data());
       const double ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-      if (memory.anchored) least[i] = std::min(least[i], ns);
-      if (first_pass && step.answer != technique::Answer::miss) {
+      if (last_point) least[i] = std::min(least[i], ns);
+      if (first_pass && step.answer != Answer::miss) {
         ++outcome.answers[static_cast<std::size_t>(step.answer)];
         drawn.push_back(place.point(step.position));
-        const double dp = place.scale * (frames[i].controller.position - memory.pen).norm();
-        const double dq = place.scale * (step.position - memory.position).norm();
-        if (memory.anchored && dp >= kLeastMotion)
-          outcome.worst_ratio = std::max(outcome.worst_ratio, dq / dp);
+        const double dp = place.scale * (frames[i].controller.position - last_pen).norm();
+        if (last_point && dp >= kLeastMotion)
+          outcome.worst_ratio = std::max(outcome.worst_ratio,
+                                         place.scale * (step.position - *last_point).norm() / dp);
       }
-      memory = step.memory;
+      if (step.answer != Answer::miss) {
+        last_point = step.position;
+        last_pen = frames[i].controller.position;
+      }
     }
   }
   for (const double ns : least)
     if (ns < kInfinity) outcome.step_ns.push_back(ns);
   for (const SurfacePoint& p : stroke.intended->points)
     intended.push_back(place.point(scene.target.position(p)));
-  outcome.distance_mm.push_back(1e3 * study::mean_corresponding_distance(drawn, intended));
+  outcome.distance_mm.push_back(1e3 * mean_corresponding_distance(drawn, intended));
 }
 
-stroke::Stroke closed_loop(const Scene& scene, const Way& way, const stroke::Intention& curve,
-                           const Similarity& place, std::uint64_t seed) {
-  const technique::Canvas canvas{&scene.target, place.scale};
-  technique::Memory memory;
-  return study::simulate_closed_loop(
-      scene.target, curve, place, {}, seed, [&](const stroke::Frame& world) -> std::optional<Vec3> {
-        const auto step =
-            way.info->step(canvas, memory, stroke::to_model(world, place), way.options);
-        memory = step.memory;
-        if (step.answer == technique::Answer::miss) return std::nullopt;
+Stroke closed_loop(const Scene& scene, const Way& way, const Intention& curve,
+                   const Similarity& place, std::uint64_t seed) {
+  const Canvas canvas{scene.target, place.scale};
+  TechniqueMemory memory = way.info->first_memory;
+  return simulate_closed_loop(
+      scene.target, curve, place, {}, seed, [&](const Frame& world) -> std::optional<Vec3> {
+        const auto step = way.info->step(canvas, to_model(world, place),
+                                         way.options.block(*way.info).data(), memory.data());
+        if (step.answer == Answer::miss) return std::nullopt;
         return place.point(step.position);
       });
 }
@@ -115,8 +121,8 @@ stroke::Stroke closed_loop(const Scene& scene, const Way& way, const stroke::Int
 enum class Hand { translated, automatic, closed_loop };
 
 Scene builtin(std::string_view name, int resolution) {
-  spatial::Target target(make_shape(name, {.resolution = resolution}));
-  auto curves = study::intended_curves(name, target);
+  Target target(make_shape(name, {.resolution = resolution}));
+  auto curves = intended_curves(name, target);
   return {std::string(name), std::move(target), std::move(curves),
           find_shape(name)->metres_per_unit};
 }
@@ -128,12 +134,12 @@ std::vector<Scene> scenes() {
     all.push_back(builtin(name, 0));
   try {
     const std::string folder = MIMICRY_STUDY_DATA "/";
-    const auto set = io::read_targets(files::read_file(folder + "targets.json"), "targets.json");
-    for (const study::TargetShape& shape : set.shapes) {
+    const auto set = read_targets(read_file(folder + "targets.json"), "targets.json");
+    for (const TargetShape& shape : set.shapes) {
       const std::string file = folder + shape.name + ".obj";
-      spatial::Target target(io::read_mesh(files::read_file(file), io::MeshFormat::obj, file));
-      std::vector<stroke::Intention> curves;
-      for (const study::TargetCurve& c : shape.curves) curves.push_back({"", false, c.points});
+      Target target(read_mesh(read_file(file), MeshFormat::obj, file));
+      std::vector<Intention> curves;
+      for (const TargetCurve& c : shape.curves) curves.push_back({"", false, c.points});
       all.push_back({"study " + shape.name, std::move(target), std::move(curves), shape.scale});
     }
   } catch (const std::exception& e) {
@@ -146,12 +152,13 @@ std::vector<Scene> scenes() {
 
 int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 2;
-  technique::Options soft;
-  soft.soft_anchor.on = 1.0;
-  const auto& live = technique::find_technique("mimicry-live");
-  const std::array<Way, 3> ways = {
-      Way{"anchored-closest", &technique::find_technique("anchored-closest"), {}},
-      Way{"mimicry-live", &live, {}}, Way{"mimicry-live soft", &live, soft}};
+  const auto& live = find_technique("mimicry-live");
+  TechniqueOptions soft;
+  const double on = 1.0;
+  set_option(live, soft, "soft-anchor", {&on, 1});
+  const std::array<Way, 3> ways = {Way{"anchored-closest", &find_technique("anchored-closest"), {}},
+                                   Way{"mimicry-live", &live, {}},
+                                   Way{"mimicry-live soft", &live, soft}};
   const std::vector<Scene> all = scenes();
   const std::array<std::pair<Hand, const char*>, 3> hands = {
       std::pair{Hand::translated, "translated"}, std::pair{Hand::automatic, "automatic"},
@@ -163,17 +170,17 @@ int main(int argc, char** argv) {
     std::array<Outcome, 3> total;
     for (const Scene& scene : all) {
       std::array<Outcome, 3> outcomes;
-      for (const stroke::Intention& curve : scene.curves)
+      for (const Intention& curve : scene.curves)
         for (int i = 1; i <= seeds; ++i) {
           const auto seed = static_cast<std::uint64_t>(i);
           const Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), scene.scale};
-          study::SimulationOptions options;
+          SimulationOptions options;
           if (hand == Hand::translated) {
-            options.copy = study::HandCopy::translated;
+            options.copy = HandCopy::translated;
             options.smoothing_m = options.drift_m = options.wobble_rad = 0.0;
             options.turn_tremor_rad = options.turn_noise_rad = 0.0;
           }
-          const auto open = study::simulate(scene.target, curve, place, options, seed);
+          const auto open = simulate(scene.target, curve, place, options, seed);
           for (std::size_t w = 0; w < ways.size(); ++w)
             draw(scene, ways[w],
                  hand == Hand::closed_loop ? closed_loop(scene, ways[w], curve, place, seed) : open,

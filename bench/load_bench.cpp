@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include <mimicry/base/large_vector.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/files/file.h>
 #include <mimicry/io/embedding_file.h>
+
+#include "base/large_vector.h"
+#include "files/file.h"
 
 namespace {
 
@@ -47,14 +48,14 @@ int main(int argc, char** argv) {
     std::vector<double> parse, target, projector, all, memory_alone;
     std::size_t bytes = 0, memory = 0;
     for (int pass = 0; pass < 9; ++pass) {
-      std::optional<embedding::Embedding> e;
-      std::optional<spatial::Target> t;
-      std::optional<embedding::SmoothProjector> p;
+      std::optional<Embedding> e;
+      std::optional<Target> t;
+      std::optional<SmoothProjector> p;
       {
         const Timer timer(parse);
-        const files::MappedFile content(file);
+        const MappedFile content(file);
         bytes = content.bytes().size();
-        e = io::read_embedding(content.bytes(), file);
+        e = read_embedding(content.bytes(), file);
       }
       {
         const Timer timer(target);

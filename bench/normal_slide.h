@@ -12,9 +12,9 @@ namespace mimicry::bench {
 /// How far smooth closest points slide along the surface where the query is moved straight off it
 /// (along the interpolated normal, to either side by turns), over the motion: `count` random
 /// points, the least first. off: in diagonals; what is not smooth there counts as 1e9.
-inline std::vector<double> normal_slides(const embedding::SmoothProjector& projector, double off,
-                                         int count, std::uint64_t seed) {
-  const spatial::Target& target = projector.target();
+inline std::vector<double> normal_slides(const SmoothProjector& projector, double off, int count,
+                                         std::uint64_t seed) {
+  const Target& target = projector.target();
   Random random(seed);
   const double way = off * target.diagonal();
   std::vector<double> slides;
@@ -26,8 +26,7 @@ inline std::vector<double> normal_slides(const embedding::SmoothProjector& proje
     p.bary = Vec3(1.0 - r, r * (1.0 - s), r * s);
     const Vec3 x = target.position(p);
     const auto q = projector.project(x + (i % 2 ? way : -way) * target.normal(p));
-    slides.push_back(q->label == embedding::ScpLabel::smooth ? (q->position - x).norm() / way
-                                                             : 1e9);
+    slides.push_back(q->label == ScpLabel::smooth ? (q->position - x).norm() / way : 1e9);
   }
   std::sort(slides.begin(), slides.end());
   return slides;

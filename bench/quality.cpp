@@ -6,12 +6,12 @@
 #include <map>
 #include <string>
 
-#include <mimicry/files/file.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/targets.h>
 
+#include "files/file.h"
 #include "quality_table.h"
 #include "study_mesh.h"
 
@@ -23,15 +23,15 @@ std::vector<QualityShape> all_shapes() {
   for (const char* name : {"torus", "rounded-cube", "hand", "noisy-cube", "double-torus"}) {
     QualityShape shape{
         std::string("built-in ") + name, make_shape(name), find_shape(name)->metres_per_unit, {}};
-    shape.curves = study::intended_curves(name, spatial::Target(shape.mesh));
+    shape.curves = intended_curves(name, Target(shape.mesh));
     shapes.push_back(std::move(shape));
   }
   for (const char* name : {"cube", "trebol", "bunny", "hand", "fertility"}) {
     auto mesh = study_mesh(name);
     if (!mesh) continue;
-    const study::TargetSet set =
-        io::read_targets(files::read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
-    const study::TargetShape& target = *set.find(name);
+    const TargetSet set =
+        read_targets(read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
+    const TargetShape& target = *set.find(name);
     QualityShape shape{std::string("study ") + name, std::move(*mesh), target.scale, {}};
     for (std::size_t c = 0; c < 3; ++c)
       shape.curves.push_back({std::to_string(c), false, target.curves[c].points});
@@ -101,6 +101,6 @@ int main(int argc, char** argv) {
   const auto rows = small ? bench::quality_table(bench::small_quality_shapes(),
                                                  bench::small_quality_plan(), executor)
                           : bench::quality_table(bench::all_shapes(), {}, executor);
-  files::write_file_atomically(out, bench::write_quality(rows));
+  write_file_atomically(out, bench::write_quality(rows));
   bench::print_markdown(rows);
 }

@@ -7,14 +7,15 @@
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/io/csv.h>
-#include <mimicry/io/number.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/bootstrap.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/comparison.h>
 #include <mimicry/study/measures.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
+
+#include "io/csv.h"
+#include "io/number.h"
 
 namespace mimicry::bench {
 namespace {
@@ -30,32 +31,28 @@ constexpr double kLeast[kNumbers] = {0.05, 0.05, 2.0, 0.1, 0.005, 0.5};
 
 struct Prepared {
   const QualityShape* shape;
-  std::unique_ptr<spatial::Target> target;
-  std::unique_ptr<embedding::SmoothProjector> projector;
-  std::vector<study::IntendedCurve> intended;
+  std::vector<IntendedCurve> intended;
   Similarity placed;
-  technique::Canvas canvas;
+  Canvas canvas;
 };
 
 Prepared prepare(const QualityShape& shape, int threads) {
-  Prepared p{&shape, std::make_unique<spatial::Target>(shape.mesh), nullptr, {}, {}, {}};
-  p.projector = std::make_unique<embedding::SmoothProjector>(
-      bake::bake(p.target->mesh(), {}, threads), *p.target);
+  Prepared p{&shape, {}, {}, {}};
+  const Target target(shape.mesh);
+  p.canvas.target = target;
+  p.canvas.projector = SmoothProjector(mimicry::bake(target.mesh(), {}, threads), target);
   p.placed.scale = shape.metres_per_unit;
-  p.placed.translation =
-      Vec3(0, 1.2, 0) - shape.metres_per_unit * p.target->bounding_box().center();
-  p.canvas.target = p.target.get();
-  p.canvas.projector = p.projector.get();
-  for (const stroke::Intention& curve : shape.curves) {
-    study::TargetCurve target;
-    target.points = curve.points;
-    p.intended.push_back(study::intended_curve(p.target->mesh(), target, shape.metres_per_unit));
+  p.placed.translation = Vec3(0, 1.2, 0) - shape.metres_per_unit * target.bounding_box().center();
+  for (const Intention& curve : shape.curves) {
+    TargetCurve meant;
+    meant.points = curve.points;
+    p.intended.push_back(intended_curve(target.mesh(), meant, shape.metres_per_unit));
   }
   return p;
 }
 
-study::SimulationOptions hand_of(const std::string& noise, double rate_hz) {
-  study::SimulationOptions hand;  // "usual"
+SimulationOptions hand_of(const std::string& noise, double rate_hz) {
+  SimulationOptions hand;  // "usual"
   hand.rate_hz = rate_hz;
   if (noise == "low") {
     hand.tremor_m = 0.05e-3;
@@ -72,12 +69,12 @@ struct Sum {
   int measured = 0, drawn = 0;
 };
 
-void add(Sum& sum, const Prepared& p, std::size_t curve, const stroke::Stroke& stroke,
-         const curve::ProjectedCurve& drawn) {
+void add(Sum& sum, const Prepared& p, std::size_t curve, const Stroke& stroke,
+         const ProjectedCurve& drawn) {
   ++sum.drawn;
   try {
-    const study::Measures m = study::measure(p.target->mesh(), p.target->half_edges(),
-                                             p.intended[curve], drawn, study::motion_of(stroke));
+    const Measures m =
+        measure(p.canvas.target.surface(), p.intended[curve], drawn, motion_of(stroke));
     const double numbers[] = {1e3 * m.d_ep_m, 1e3 * m.d_sym_m, m.k_g_rad_per_m,
                               100 * m.share_jumping, m.length_ratio};
     for (int i = 0; i < kNumbers - 1; ++i) sum.total[i] += numbers[i];
@@ -90,24 +87,24 @@ void add(Sum& sum, const Prepared& p, std::size_t curve, const stroke::Stroke& s
 // One stroke of every technique.
 void draw(const Prepared& p, std::size_t curve, const std::string& noise, bool closed,
           double rate_hz, std::uint64_t seed, std::vector<Sum>& sums) {
-  const study::SimulationOptions hand = hand_of(noise, rate_hz);
-  const stroke::Intention& intended = p.shape->curves[curve];
-  stroke::Stroke open;
-  if (!closed) open = study::simulate(*p.target, intended, p.placed, hand, seed);
+  const SimulationOptions hand = hand_of(noise, rate_hz);
+  const Intention& intended = p.shape->curves[curve];
+  Stroke open;
+  if (!closed) open = simulate(p.canvas.target, intended, p.placed, hand, seed);
   std::size_t t = 0;
-  for (const technique::TechniqueInfo& info : technique::techniques()) {
-    session::StrokeSession session(p.canvas, info);
+  for (const TechniqueInfo& info : techniques()) {
+    StrokeSession session(p.canvas, info);
     session.begin(p.placed);
     if (closed) {
-      const stroke::Stroke stroke = study::simulate_closed_loop(
-          *p.target, intended, p.placed, hand, seed,
-          [&](const stroke::Frame& frame) -> std::optional<Vec3> {
-            if (session.add(frame) != session::FrameStatus::inked) return std::nullopt;
-            return p.placed.point(session.curve().points.back().position);
-          });
+      const Stroke stroke =
+          simulate_closed_loop(p.canvas.target, intended, p.placed, hand, seed,
+                               [&](const Frame& frame) -> std::optional<Vec3> {
+                                 if (session.add(frame) != FrameStatus::inked) return std::nullopt;
+                                 return p.placed.point(session.curve().points.back().position);
+                               });
       add(sums[t++], p, curve, stroke, session.curve());
     } else {
-      for (const stroke::Frame& frame : open.frames) session.add(frame);
+      for (const Frame& frame : open.frames) session.add(frame);
       add(sums[t++], p, curve, open, session.curve());
     }
   }
@@ -116,7 +113,7 @@ void draw(const Prepared& p, std::size_t curve, const std::string& noise, bool c
 }  // namespace
 
 std::string QualityRow::key() const {
-  return technique + "," + noise + "," + loop + "," + io::format_double(rate_hz);
+  return technique + "," + noise + "," + loop + "," + format_double(rate_hz);
 }
 
 std::vector<QualityRow> quality_table(const std::vector<QualityShape>& shapes,
@@ -134,9 +131,9 @@ std::vector<QualityRow> quality_table(const std::vector<QualityShape>& shapes,
     for (const bool closed : plan.closed_loops)
       for (const double rate : plan.rates_hz) conditions.push_back({noise, closed, rate});
   const auto seeds = static_cast<std::size_t>(plan.seeds);
-  const std::size_t techniques = technique::techniques().size();
+  const std::size_t technique_count = techniques().size();
   // [condition][seed][technique]
-  std::vector<std::vector<Sum>> sums(conditions.size() * seeds, std::vector<Sum>(techniques));
+  std::vector<std::vector<Sum>> sums(conditions.size() * seeds, std::vector<Sum>(technique_count));
   executor.for_chunks(sums.size(), 1, [&](std::size_t job, std::size_t, int) {
     const Condition& c = conditions[job / seeds];
     const std::uint64_t seed = 1 + job % seeds;
@@ -147,7 +144,7 @@ std::vector<QualityRow> quality_table(const std::vector<QualityShape>& shapes,
 
   std::vector<QualityRow> rows;
   std::size_t t = 0;
-  for (const technique::TechniqueInfo& info : technique::techniques()) {
+  for (const TechniqueInfo& info : techniques()) {
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       QualityRow row{std::string(info.name),
                      conditions[c].noise,
@@ -168,8 +165,8 @@ std::vector<QualityRow> quality_table(const std::vector<QualityShape>& shapes,
           else if (sum.measured > 0)
             of_seeds.push_back(sum.total[k] / sum.measured);
         }
-        (row.*kMembers[k]) = {of_seeds.empty() ? 0 : study::mean(of_seeds),
-                              of_seeds.size() < 2 ? 0 : study::standard_deviation(of_seeds)};
+        (row.*kMembers[k]) = {of_seeds.empty() ? 0 : mean(of_seeds),
+                              of_seeds.size() < 2 ? 0 : standard_deviation(of_seeds)};
       }
       rows.push_back(row);
     }
@@ -183,8 +180,8 @@ std::vector<QualityShape> small_quality_shapes() {
   for (const auto& [name, resolution] : {std::pair{"torus", 24}, {"rounded-cube", 8}}) {
     QualityShape shape{
         name, make_shape(name, {.resolution = resolution}), find_shape(name)->metres_per_unit, {}};
-    const spatial::Target target(shape.mesh);
-    shape.curves = study::intended_curves(name, target);
+    const Target target(shape.mesh);
+    shape.curves = intended_curves(name, target);
     shape.curves.resize(2);
     shapes.push_back(std::move(shape));
   }
@@ -201,24 +198,24 @@ std::string write_quality(const std::vector<QualityRow>& rows) {
     columns.emplace_back(name);
     columns.push_back(std::string(name) + "_spread");
   }
-  std::string text = io::csv_heading(columns);
+  std::string text = csv_heading(columns);
   for (const QualityRow& row : rows) {
-    std::vector<io::Cell> cells = {row.technique, row.noise, row.loop, row.rate_hz};
+    std::vector<Cell> cells = {row.technique, row.noise, row.loop, row.rate_hz};
     for (const auto member : kMembers) {
       // Six digits: the file is for comparing, and stays small.
       for (const double x : {(row.*member).mean, (row.*member).spread})
         cells.emplace_back(std::round(1e6 * x) / 1e6);
     }
-    text += io::csv_line(cells);
+    text += csv_line(cells);
   }
   return text;
 }
 
 std::vector<QualityRow> read_quality(const std::string& csv) {
-  const io::CsvTable table = io::read_csv(csv, "quality table");
+  const CsvTable table = read_csv(csv, "quality table");
   std::vector<QualityRow> rows;
   for (const auto& fields : table.rows) {
-    const auto number = [&](std::size_t i) { return io::parse_double(fields.at(i)).value(); };
+    const auto number = [&](std::size_t i) { return parse_double(fields.at(i)).value(); };
     QualityRow row{fields.at(0), fields.at(1), fields.at(2), number(3), {}, {}, {}, {}, {}, {}};
     for (std::size_t k = 0; k < kNumbers; ++k)
       (row.*kMembers[k]) = {number(4 + 2 * k), number(5 + 2 * k)};
@@ -234,9 +231,8 @@ std::string worse(const QualityRow& row, const QualityRow& stored) {
     const double bad_now = is_ratio ? std::abs(now.mean - 1) : now.mean;
     const double bad_before = is_ratio ? std::abs(before.mean - 1) : before.mean;
     if (bad_now > bad_before + before.spread + kLeast[k])
-      return row.key() + ": " + kNames[k] + " is " + io::format_double(now.mean) + ", stored " +
-             io::format_double(before.mean) + " with a spread of " +
-             io::format_double(before.spread);
+      return row.key() + ": " + kNames[k] + " is " + format_double(now.mean) + ", stored " +
+             format_double(before.mean) + " with a spread of " + format_double(before.spread);
   }
   return {};
 }

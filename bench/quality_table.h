@@ -15,7 +15,7 @@ struct QualityShape {
   std::string name;
   TriangleMesh mesh;
   double metres_per_unit = 1.0;
-  std::vector<stroke::Intention> curves;
+  std::vector<Intention> curves;
 };
 
 /// What is varied. Every combination is drawn with every technique.

@@ -16,9 +16,10 @@
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/random.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
+
+#include "files/file.h"
 
 namespace {
 
@@ -48,8 +49,7 @@ void print_quantiles(const char* label, std::vector<double> us) {
 }
 
 TriangleMesh mesh_of(const std::string& name) {
-  if (name.find('/') != std::string::npos)
-    return io::read_mesh(files::read_file(name), io::MeshFormat::obj, name);
+  if (name.find('/') != std::string::npos) return read_mesh(read_file(name), MeshFormat::obj, name);
   const std::size_t colon = name.find(':');
   ShapeOptions options;
   if (colon != std::string::npos) options.resolution = std::atoi(name.c_str() + colon + 1);
@@ -61,8 +61,8 @@ Vec3 random_vector(Random& random) {
 }
 
 struct Timed {
-  const spatial::Target& target;
-  const embedding::SmoothProjector& projector;
+  const Target& target;
+  const SmoothProjector& projector;
 
   SurfacePoint random_point(Random& random) const {
     const auto count = static_cast<std::uint32_t>(target.mesh().face_count());
@@ -79,7 +79,7 @@ struct Timed {
       SurfacePoint at = random_point(random);
       Vec3 x = target.position(at), direction = random_vector(random);
       Vec3 before_y = Vec3::Zero(), before_q = Vec3::Zero(), before_snap = Vec3::Zero();
-      embedding::ScpHint hint;
+      ScpHint hint;
       for (int i = 0; i < 200; ++i) {
         const Vec3 normal = target.normal(at);
         direction -= direction.dot(normal) * normal;
@@ -90,15 +90,15 @@ struct Timed {
         x = next->position;
         const Vec3 y = x + (s % 2 ? offset : -offset) * diagonal * target.normal(at) +
                        2e-4 * diagonal * random_vector(random);
-        embedding::SmoothPoint q;
-        embedding::ScpHint after = hint;
+        SmoothPoint q;
+        ScpHint after = hint;
         warm.push_back(least_us([&] {
           after = hint;
           q = *projector.project(y, {}, &after);
         }));
         hint = after;
         cold.push_back(least_us([&] { projector.project(y); }));
-        if (q.label != embedding::ScpLabel::smooth) ++fallbacks;
+        if (q.label != ScpLabel::smooth) ++fallbacks;
         const Vec3 snap = target.closest_point(y)->position;
         if (i > 0) {
           const double way = (y - before_y).norm(), ratio = (q.position - before_q).norm() / way;
@@ -151,7 +151,7 @@ struct Timed {
 int main(int argc, char** argv) {
   std::vector<std::string> names;
   int count = 2000;
-  embedding::BakeOptions options;
+  BakeOptions options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--compare" && i + 1 < argc)
@@ -163,11 +163,11 @@ int main(int argc, char** argv) {
   }
   if (names.empty()) names = {"sphere", "torus", "hand"};
   for (const std::string& name : names) {
-    const spatial::Target target(mesh_of(name));
+    const Target target(mesh_of(name));
     const auto start = Clock::now();
-    embedding::Embedding baked = bake::bake(target.mesh(), options, 2);
+    Embedding baked = mimicry::bake(target.mesh(), options, 2);
     const auto end = Clock::now();
-    const embedding::SmoothProjector projector(std::move(baked), target);
+    const SmoothProjector projector(std::move(baked), target);
     std::printf("%s: %d faces, %zu tetrahedra, bake %.1f s, set-up %.2f s, %.0f MB%s\n",
                 name.c_str(), target.mesh().face_count(), projector.embedding().tets.size(),
                 1e-6 * microseconds(end - start), 1e-6 * microseconds(Clock::now() - end),

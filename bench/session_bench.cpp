@@ -8,11 +8,11 @@
 #include <benchmark/benchmark.h>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
 #include "study_mesh.h"
 
@@ -20,47 +20,43 @@ namespace mimicry {
 namespace {
 
 struct Drawing {
-  spatial::Target target;
-  std::unique_ptr<embedding::SmoothProjector> projector;
-  std::vector<stroke::Stroke> strokes;
+  Target target;
+  SmoothProjector projector;
+  std::vector<Stroke> strokes;
 };
 
 // For techniques that need one; the target stays where it is.
 void bake_for(Drawing& drawing) {
-  drawing.projector = std::make_unique<embedding::SmoothProjector>(
-      bake::bake(drawing.target.mesh(), {}, 2), drawing.target);
+  drawing.projector = SmoothProjector(mimicry::bake(drawing.target.mesh(), {}, 2), drawing.target);
 }
 
-Drawing draw_on(spatial::Target target, const std::vector<stroke::Intention>& curves,
-                double scale) {
-  Drawing drawing{std::move(target), nullptr, {}};
+Drawing draw_on(Target target, const std::vector<Intention>& curves, double scale) {
+  Drawing drawing{std::move(target), {}, {}};
   Similarity placed;
   placed.scale = scale;
   std::uint64_t seed = 1;
   for (const auto& curve : curves)
-    drawing.strokes.push_back(study::simulate(drawing.target, curve, placed, {}, seed++));
+    drawing.strokes.push_back(simulate(drawing.target, curve, placed, {}, seed++));
   return drawing;
 }
 
 Drawing torus() {
-  spatial::Target target(make_shape("torus", {.resolution = kLargeTorusResolution}));
-  const auto curves = study::intended_curves("torus", target);
+  Target target(make_shape("torus", {.resolution = kLargeTorusResolution}));
+  const auto curves = intended_curves("torus", target);
   return draw_on(std::move(target), curves, find_shape("torus")->metres_per_unit);
 }
 
 Drawing draw_on_study(const TriangleMesh& mesh, const std::string& name) {
-  const study::TargetSet set =
-      io::read_targets(files::read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
-  const study::TargetShape& shape = *set.find(name);
-  std::vector<stroke::Intention> curves;
+  const TargetSet set = read_targets(read_file(MIMICRY_STUDY_DATA "/targets.json"), "targets.json");
+  const TargetShape& shape = *set.find(name);
+  std::vector<Intention> curves;
   for (const auto& curve : shape.curves) curves.push_back({"", false, curve.points});
-  return draw_on(spatial::Target(mesh), curves, shape.scale);
+  return draw_on(Target(mesh), curves, shape.scale);
 }
 
 void add_frame(benchmark::State& state, const Drawing& drawing, const std::string& technique) {
   using Clock = std::chrono::steady_clock;
-  session::StrokeSession session({&drawing.target, 1.0, drawing.projector.get()},
-                                 technique::find_technique(technique));
+  StrokeSession session({drawing.target, 1.0, drawing.projector}, find_technique(technique));
   std::vector<double> micros;
   for (auto _ : state) {
     for (const auto& stroke : drawing.strokes) {
@@ -94,7 +90,7 @@ int main(int argc, char** argv) {
     if (const auto mesh = bench::study_mesh(name))
       drawings.emplace_back(name, draw_on_study(*mesh, name));
   for (auto& [name, drawing] : drawings)
-    for (const auto& info : technique::techniques())
+    for (const auto& info : techniques())
       benchmark::RegisterBenchmark(("add_frame/" + name + "/" + std::string(info.name)).c_str(),
                                    [&drawing = drawing, &info](benchmark::State& state) {
                                      if (info.needs_bake && !drawing.projector) bake_for(drawing);

@@ -75,8 +75,8 @@ void print(std::string_view shape, Index faces, const char* label, Line line) {
 }
 
 void print_slides(const std::string& name, const TriangleMesh& mesh) {
-  const spatial::Target target(mesh);
-  const embedding::SmoothProjector projector(bake::bake(mesh, {}, 2), target);
+  const Target target(mesh);
+  const SmoothProjector projector(mimicry::bake(mesh, {}, 2), target);
   for (const double off : {0.002, 0.005, 0.01}) {
     const std::vector<double> slides = bench::normal_slides(projector, off, 4000, 1);
     const auto at = [&](double q) {
@@ -95,8 +95,8 @@ int main() {
   for (const std::string_view shape : {"sphere", "torus"})
     for (const int resolution : {8, 16, 32}) {
       const TriangleMesh mesh = make_shape(shape, {.resolution = resolution});
-      const spatial::Target target(mesh);
-      const embedding::SmoothProjector projector(bake::bake(mesh, {}, 2), target);
+      const Target target(mesh);
+      const SmoothProjector projector(mimicry::bake(mesh, {}, 2), target);
       const Index faces = mesh.face_count();
       print(shape, faces, "smooth",
             measure(shape, [&](const Vec3& p) { return projector.project(p)->position; }));
@@ -110,8 +110,8 @@ int main() {
   for (const std::string_view shape : {"sphere", "torus"})
     for (const int resolution : {8, 16, 32, 64}) {
       const TriangleMesh mesh = make_shape(shape, {.resolution = resolution});
-      const spatial::Target target(mesh);
-      const embedding::SmoothProjector projector(bake::bake(mesh, {.samples = 200}, 2), target);
+      const Target target(mesh);
+      const SmoothProjector projector(mimicry::bake(mesh, {.samples = 200}, 2), target);
       const bench::EdgeTurns turns = bench::edge_turns(projector);
       std::printf("%-8s %6d %12.4f %8.4f\n", shape.data(), mesh.face_count(), turns.in_embedding,
                   turns.in_space);

@@ -14,6 +14,8 @@
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
 
+#include "spatial/bvh.h"
+#include "spatial/triangle.h"
 #include "study_mesh.h"
 
 namespace {
@@ -22,9 +24,9 @@ using mimicry::Face;
 using mimicry::Index;
 using mimicry::kInfinity;
 using mimicry::kNone;
+using mimicry::Target;
 using mimicry::TriangleMesh;
 using mimicry::Vec3;
-using mimicry::spatial::Target;
 
 constexpr int kQueries = 4096;
 
@@ -264,8 +266,8 @@ void add(const std::shared_ptr<Scene>& s) {
                                                                                state) {
     const TriangleMesh& mesh = s->target.mesh();
     for (auto _ : state) {
-      const mimicry::spatial::Bvh<3, mimicry::spatial::Triangle> bvh(
-          mesh.face_count(), [&](Index f) -> mimicry::spatial::Triangle {
+      const mimicry::Bvh<3, mimicry::Triangle> bvh(
+          mesh.face_count(), [&](Index f) -> mimicry::Triangle {
             return {mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)};
           });
       benchmark::DoNotOptimize(bvh.size());

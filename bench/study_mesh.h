@@ -4,8 +4,9 @@
 #include <optional>
 #include <string>
 
-#include <mimicry/files/file.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
+
+#include "files/file.h"
 
 namespace mimicry::bench {
 
@@ -13,7 +14,7 @@ namespace mimicry::bench {
 inline std::optional<TriangleMesh> study_mesh(const std::string& name) {
   const std::string path = MIMICRY_STUDY_DATA "/" + name + ".obj";
   if (!std::filesystem::exists(path)) return std::nullopt;
-  return io::read_mesh(files::read_file(path), io::MeshFormat::obj, name);
+  return read_mesh(read_file(path), MeshFormat::obj, name);
 }
 
 }  // namespace mimicry::bench

@@ -14,21 +14,3 @@ file(CREATE_LINK /usr/include/nlohmann "${system_headers}/nlohmann" SYMBOLIC)
 add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED GLOBAL)
 set_target_properties(nlohmann_json::nlohmann_json PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES "${system_headers}")
-
-# Of the tests: GoogleTest's sources, as the package googletest installs them.
-function(mimicry_wasm_googletest)
-  set(root /usr/src/googletest)
-  if(NOT EXISTS "${root}/googletest/src/gtest-all.cc")
-    message(FATAL_ERROR "${root}: GoogleTest's sources are missing; install the package googletest (scripts/setup)")
-  endif()
-  add_library(wasm_googletest STATIC
-    ${root}/googletest/src/gtest-all.cc ${root}/googlemock/src/gmock-all.cc)
-  target_include_directories(wasm_googletest SYSTEM PUBLIC
-    ${root}/googletest/include ${root}/googlemock/include)
-  target_include_directories(wasm_googletest SYSTEM PRIVATE ${root}/googletest ${root}/googlemock)
-  target_compile_definitions(wasm_googletest PUBLIC GTEST_HAS_PTHREAD=0)
-  target_compile_features(wasm_googletest PUBLIC cxx_std_20)
-  target_compile_options(wasm_googletest PRIVATE -O1)
-  add_library(GTest::gtest ALIAS wasm_googletest)
-  add_library(GTest::gmock ALIAS wasm_googletest)
-endfunction()

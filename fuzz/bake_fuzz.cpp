@@ -30,11 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // A thick shell has few tetrahedra: some bakes a second with sanitizers.
   const double offset = data[0] % 8 == 0 ? 0.05 : 0.15 + 0.05 * (data[0] % 8);
   const TriangleMesh mesh = messy::of_bytes(std::span(data + 1, size - 1));
-  bake::Embedding e;
+  Embedding e;
   try {
     const auto end = std::chrono::steady_clock::now() + kPatience;
-    e = bake::bake(mesh, {.dimension = 8, .samples = 12, .offset = offset}, 1,
-                   [end](const Progress&) { return std::chrono::steady_clock::now() < end; });
+    e = mimicry::bake(mesh, {.dimension = 8, .samples = 12, .offset = offset}, 1,
+                      [end](const Progress&) { return std::chrono::steady_clock::now() < end; });
   } catch (const Error& error) {
     require(error.kind() == ErrorKind::invalid_input || error.kind() == ErrorKind::cancelled);
     return 0;

@@ -223,6 +223,83 @@ void look(World& w, Input& in) {
   check(mimicry_strokes_placement(strokes, number, &placed));
 }
 
+mimicry_surface_point surface_point(Input& in) {
+  mimicry_surface_point p{};
+  p.face = in.byte() - 4;
+  p.barycentric[0] = in.byte() % 4 == 0 ? in.number() : 0.25;
+  p.barycentric[1] = 0.5;
+  p.barycentric[2] = 1.0 - p.barycentric[0] - p.barycentric[1];
+  return p;
+}
+
+// Queries for many points, paths, and vertices that move.
+void geometry(World& w, Input& in) {
+  mimicry_target* target = w.targets.pick(in);
+  mimicry_surface_point points[2] = {surface_point(in), surface_point(in)};
+  switch (in.byte() % 6) {
+    case 0: {
+      double y[6], d[6];
+      for (double& x : y) x = in.number();
+      for (double& x : d) x = in.number();
+      mimicry_answer answers[2];
+      check(mimicry_target_closest_points(target, y, 2, in.number(), points));
+      check(mimicry_target_first_hits(target, y, d, 2, points));
+      check(mimicry_target_smooth_closest_points(target, y, 2, in.byte() % 2, points, answers));
+      break;
+    }
+    case 1: {
+      mimicry_geodesics* geodesics = nullptr;
+      check(mimicry_geodesics_create(target, points, in.byte() % 3, in.number(), nullptr, nullptr,
+                                     &geodesics));
+      double distances[2];
+      check(mimicry_geodesics_distances(geodesics, points, 2, distances));
+      check(mimicry_geodesics_find_path(geodesics, &points[1], distances, nullptr));
+      require(mimicry_geodesics_path_count(geodesics) == 0 ||
+              mimicry_geodesics_path(geodesics) != nullptr);
+      mimicry_geodesics_destroy(geodesics);
+      break;
+    }
+    case 2: {
+      mimicry_path_finder* finder = nullptr;
+      check(mimicry_path_finder_create(target, &finder));
+      double length;
+      const double direction[3] = {in.number(), in.number(), in.number()};
+      check(mimicry_path_finder_find(finder, &points[0], &points[1], &length, nullptr));
+      check(
+          mimicry_path_finder_trace(finder, &points[0], direction, in.number(), nullptr, &length));
+      mimicry_path_finder_destroy(finder);
+      break;
+    }
+    case 3: {
+      mimicry_exponential_map* map = nullptr;
+      check(mimicry_exponential_map_create(target, &map));
+      check(mimicry_exponential_map_compute(map, &points[0], in.number(), nullptr, nullptr));
+      mimicry_exponential_map_destroy(map);
+      break;
+    }
+    case 4: {
+      std::vector<double> positions(3 * (in.byte() % 9));
+      for (double& x : positions) x = in.number();
+      check(mimicry_target_update_positions(target, positions.data(), positions.size() / 3));
+      const mimicry_curve* curve = w.curves.pick(in);
+      w.curves.add(in, [&](mimicry_curve** out) { return mimicry_curve_follow(curve, out); });
+      break;
+    }
+    default: {
+      const mimicry_curve* curve = w.curves.pick(in);
+      const mimicry_similarity placed = placement(in);
+      mimicry_frame frames[2] = {frame(in, 0.0), frame(in, 0.1)};
+      mimicry_measures measures;
+      check(mimicry_measure(curve, &placed, frames, 2, points, 2, nullptr, 0, in.byte() % 2,
+                            &measures));
+      int32_t numbers[2];
+      std::size_t found;
+      check(mimicry_keypoints(target, points, 2, in.number(), numbers, &found));
+      check(mimicry_frames_in(in.byte() % 2 ? "unity" : "unreal", frames, 2, frames));
+    }
+  }
+}
+
 void bake(World& w, Input& in) {
   mimicry_bake_options options = mimicry_default_bake_options();
   options.samples = 10;
@@ -437,6 +514,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 12:
         drop(w, in);
+        break;
+      case 13:
+        geometry(w, in);
         break;
       default:
         draw(w, in);

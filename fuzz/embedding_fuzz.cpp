@@ -12,11 +12,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace mimicry;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    embedding::Embedding e = io::read_embedding(bytes, "input");
-    const std::string again = io::write_embedding(e);
-    if (io::write_embedding(io::read_embedding(again, "output")) != again) __builtin_trap();
-    const spatial::Target target(mesh_of(e));
-    const embedding::SmoothProjector projector(std::move(e), target);
+    Embedding e = read_embedding(bytes, "input");
+    const std::string again = write_embedding(e);
+    if (write_embedding(read_embedding(again, "output")) != again) __builtin_trap();
+    const Target target(mesh_of(e));
+    const SmoothProjector projector(std::move(e), target);
     projector.project(target.position({0, Vec3::Constant(1.0 / 3.0)}));
   } catch (const Error&) {
   }

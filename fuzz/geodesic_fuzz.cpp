@@ -10,10 +10,9 @@
 
 #include <mimicry/geodesic/exact.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace {
 
@@ -90,52 +89,47 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<Face> faces;
   for (int f = 0; f < count; ++f)
     faces.push_back({bytes.next() % vertices, bytes.next() % vertices, bytes.next() % vertices});
-  const Connected surface = connect(TriangleMesh(positions, faces));
-  const TriangleMesh& mesh = surface.mesh;
-  const HalfEdges& edges = surface.half_edges;
+  const Surface surface(TriangleMesh(positions, faces));
+  const TriangleMesh& mesh = surface.mesh();
   // Where every face is left out `connect` returns the mesh that it got, which Target refuses.
-  const ConnectReport& report = surface.report;
+  const ConnectReport& report = surface.connection();
   if (report.repeated_corners.count + report.doubled_faces.count == mesh.face_count()) return 0;
   const SurfacePoint a = point(bytes, mesh);
   const SurfacePoint b = point(bytes, mesh);
   const double straight = (mesh.position(a) - mesh.position(b)).norm();
   constexpr double kTolerance = 1e-6;
 
-  geodesic::ExactGeodesics exact(mesh, edges);
+  ExactGeodesics exact(surface);
   exact.compute(a);
   for (Index v = 0; v < mesh.vertex_count(); ++v) require(exact.distance(v) >= 0.0);
   const double distance = exact.distance(b);
   require(distance >= straight - kTolerance);
-  const geodesic::ExactPath path = exact.path_to(b);
+  const ExactPath path = exact.path_to(b);
   if (path.found) {
     require(std::abs(path.length - distance) <= kTolerance);
     require(std::abs(polyline(mesh, a, path.crossings, b) - path.length) <= kTolerance);
   }
 
-  geodesic::LocalPathFinder finder(mesh, edges);
+  LocalPathFinder finder(surface);
   for (const std::size_t work : {std::size_t{1}, std::size_t{20000}}) {
     std::vector<Crossing> crossings;
-    geodesic::LocalPathOptions options;
+    LocalPathOptions options;
     options.most_windows = work;
-    const geodesic::LocalPath local = finder.find(a, b, crossings, options);
-    if (local.label == geodesic::PathLabel::disconnected) continue;
+    const LocalPath local = finder.find(a, b, crossings, options);
+    if (local.label == PathLabel::disconnected) continue;
     require(std::abs(polyline(mesh, a, crossings, b) - local.length) <= kTolerance);
     require(local.length >= distance - kTolerance);
   }
 
   const Vec3 direction(bytes.next() - 128, bytes.next() - 128, bytes.next() - 128);
   std::vector<Crossing> crossings;
-  const geodesic::Trace trace =
-      geodesic::trace_straightest(mesh, edges, a, direction, 10.0, &crossings);
+  const Trace trace = trace_straightest(surface, a, direction, 10.0, &crossings);
   require(trace.end.bary.allFinite() && trace.direction.allFinite());
   require(trace.length <= 10.0);
-  require(trace.stop != geodesic::TraceStop::complete || trace.length == 10.0);
-  require(std::isfinite(
-      geodesic::parallel_transport(mesh, edges, a, crossings, trace.end, direction).sum()));
-
-  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  geodesic::DiscreteExponentialMap map(mesh, edges, normals);
-  const geodesic::ExponentialPatch& patch = map.compute(a, 5.0);
+  require(trace.stop != TraceStop::complete || trace.length == 10.0);
+  require(std::isfinite(parallel_transport(surface, a, crossings, trace.end, direction).sum()));
+  DiscreteExponentialMap map(surface);
+  const ExponentialPatch& patch = map.compute(a, 5.0);
   const std::vector<double> most = edge_paths(mesh, a.face, patch.origin);
   for (std::size_t k = 0; k < patch.vertices.size(); ++k) {
     const double length = patch.coordinates[k].norm();

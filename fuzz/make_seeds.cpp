@@ -14,10 +14,9 @@
 #include <mimicry/base/random.h>
 #include <mimicry/io/curves.h>
 #include <mimicry/io/embedding_file.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
 
@@ -46,98 +45,94 @@ void meshes() {
                  {"sphere", make_sphere(1)},
                  {"soup", messy::families()[0].make(6, 1)}};
   for (const auto& [name, mesh] : kMeshes) {
-    for (const auto& [target, format] : {std::pair{"obj", io::MeshFormat::obj},
-                                         {"off", io::MeshFormat::off},
-                                         {"ply", io::MeshFormat::ply},
-                                         {"stl", io::MeshFormat::stl},
-                                         {"glb", io::MeshFormat::glb}})
-      keep(target, name, io::write_mesh(mesh, format));
+    for (const auto& [target, format] : {std::pair{"obj", MeshFormat::obj},
+                                         {"off", MeshFormat::off},
+                                         {"ply", MeshFormat::ply},
+                                         {"stl", MeshFormat::stl},
+                                         {"glb", MeshFormat::glb}})
+      keep(target, name, write_mesh(mesh, format));
     for (const auto& [target, format] :
-         {std::pair{"ply", io::MeshFormat::ply}, {"stl", io::MeshFormat::stl}})
-      keep(target, std::string(name) + "_text", io::write_mesh(mesh, format, {.text = true}));
+         {std::pair{"ply", MeshFormat::ply}, {"stl", MeshFormat::stl}})
+      keep(target, std::string(name) + "_text", write_mesh(mesh, format, {.text = true}));
   }
 }
 
-stroke::Stroke some_stroke() {
-  stroke::Stroke s;
+Stroke some_stroke() {
+  Stroke s;
   s.id = "s1";
   s.target = "box";
   for (int i = 0; i < 6; ++i) {
-    stroke::Frame f;
+    Frame f;
     f.time_s = 0.1 * i;
     f.head.position = Vec3(0, 1.6, 2.5);
     f.controller.position = Vec3(0.4 * i - 1.0, 0.2 * i, 1.3);
     if (i % 2 == 0) f.pressure = 0.5;
     s.frames.push_back(f);
   }
-  s.intended = stroke::Intention{"i", true, {{0, Vec3(1, 0, 0)}, {1, Vec3(0.5, 0.25, 0.25)}}};
+  s.intended = Intention{"i", true, {{0, Vec3(1, 0, 0)}, {1, Vec3(0.5, 0.25, 0.25)}}};
   return s;
 }
 
 void drawings() {
   // The mesh that curves_fuzz reads curves for.
   const TriangleMesh box = make_box(1, 1, 1, Vec3::Ones());
-  const spatial::Target target(box);
-  technique::Canvas canvas;
-  canvas.target = &target;
-  const stroke::Stroke stroke = some_stroke();
-  io::CurveSet set{"box", {}};
-  for (const technique::TechniqueInfo& technique : technique::techniques())
+  const Target target(box);
+  const Canvas canvas{target};
+  const Stroke stroke = some_stroke();
+  CurveSet set{"box", {}};
+  for (const TechniqueInfo& technique : techniques())
     if (!technique.needs_bake) {
-      io::CurveRecord record;
+      CurveRecord record;
       record.stroke = stroke.id;
       record.technique = technique.name;
-      record.curve = session::project(canvas, technique, stroke);
+      record.curve = project(canvas, technique, stroke).curve;
       set.curves.push_back(std::move(record));
     }
-  keep("curves", "all", io::write_curves_json(set, box));
-  keep("curves", "packed", io::write_curves_packed(set, box));
+  keep("curves", "all", write_curves_json(set, box));
+  keep("curves", "packed", write_curves_packed(set, box));
   set.curves.resize(1);
-  keep("curves", "one", io::write_curves_json(set, box));
-  keep("csv", "curves", io::write_curves_csv(set, box));
+  keep("curves", "one", write_curves_json(set, box));
+  keep("csv", "curves", write_curves_csv(set, box));
 
-  const std::vector<stroke::Stroke> strokes = {stroke, stroke};
+  const std::vector<Stroke> strokes = {stroke, stroke};
   int number = 0;
-  for (const stroke::CoordinateConvention& convention : stroke::conventions())
-    keep("strokes", "convention" + std::to_string(number++),
-         io::write_strokes(strokes, convention));
+  for (const CoordinateConvention& convention : conventions())
+    keep("strokes", "convention" + std::to_string(number++), write_strokes(strokes, convention));
 }
 
 void studies() {
-  study::TargetSet set;
-  study::TargetCurve curve;
+  TargetSet set;
+  TargetCurve curve;
   curve.points = {{0, Vec3(1, 0, 0)}, {1, Vec3(0.25, 0.5, 0.25)}, {2, Vec3(0, 0, 1)}};
   curve.keypoints = {0, 2};
-  curve.parameters = study::TargetParameters{};
+  curve.parameters = TargetParameters{};
   set.shapes.push_back({"torus", 0.4, {curve, curve}});
-  keep("targets", "two", io::write_targets(set, "a note"));
-  const std::string sequence = io::write_study_sequence({{1, 0}, {0}, {{0, 1, 2, 0}, {2, 1}}});
+  keep("targets", "two", write_targets(set, "a note"));
+  const std::string sequence = write_study_sequence({{1, 0}, {0}, {{0, 1, 2, 0}, {2, 1}}});
   keep("study_recording", "sequence", "s" + sequence);
 
-  const spatial::Target target(make_box(1, 1, 1, Vec3::Ones()));
-  technique::Canvas canvas;
-  canvas.target = &target;
-  const stroke::Stroke drawn = some_stroke();
-  std::vector<study::RecordedStroke> recorded;
+  const Target target(make_box(1, 1, 1, Vec3::Ones()));
+  const Canvas canvas{target};
+  const Stroke drawn = some_stroke();
+  std::vector<RecordedStroke> recorded;
   for (const char* name : {"spraycan", "head-centric", "snap"})
-    recorded.push_back(study::record(
-        drawn, session::project(canvas, technique::find_technique(name), drawn), "Spray"));
-  const std::string recording = io::write_recording(recorded);
+    recorded.push_back(record(drawn, project(canvas, find_technique(name), drawn).curve, "Spray"));
+  const std::string recording = write_recording(recorded);
   keep("study_recording", "recording", "r" + recording);
-  study::TargetCurve across;  // a face
+  TargetCurve across;  // a face
   for (int step = 0; step <= 8; ++step)
     across.points.push_back({0, Vec3(1.0 - step / 8.0, step / 16.0, step / 16.0)});
   using namespace std::string_literals;
   keep("measure", "folder",
-       io::write_study_sequence({{0}, {0}, {{0, 0, 0, 0}}}) + "\0"s + recording + "\0"s +
-           io::write_targets({{{"box", 0.4, {across}}}}, ""));
+       write_study_sequence({{0}, {0}, {{0, 0, 0, 0}}}) + "\0"s + recording + "\0"s +
+           write_targets({{{"box", 0.4, {across}}}}, ""));
 }
 
 void bakes() {
   const TriangleMesh tetrahedron({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                  {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
   keep("embedding", "tetrahedron",
-       io::write_embedding(bake::bake(tetrahedron, {.samples = 10, .offset = 0.5})));
+       write_embedding(mimicry::bake(tetrahedron, {.samples = 10, .offset = 0.5})));
 }
 
 // Where the bytes are choices and not a format: some of any kind, the same each time.

@@ -7,14 +7,12 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/keypoints.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/protocol.h>
 #include <mimicry/study/recording.h>
+#include <mimicry/study/targets.h>
 
 namespace {
 
@@ -26,20 +24,17 @@ std::string_view take(std::string_view& rest) {
   return part;
 }
 
-void measure(const spatial::Target& target, const study::TargetShape& shape, Index curve_number,
-             const study::RecordedStroke& stroke) {
-  (void)study::method_of(stroke);
-  const std::vector<study::MotionSample> motion = study::motion_of(stroke);
-  const curve::ProjectedCurve curve = study::curve_of(stroke, target);
-  study::TargetCurve wanted = shape.curves[at(curve_number) % shape.curves.size()];
+void measure(const Target& target, const TargetShape& shape, Index curve_number,
+             const RecordedStroke& stroke) {
+  (void)method_of(stroke);
+  const std::vector<MotionSample> motion = motion_of(stroke);
+  const ProjectedCurve curve = curve_of(stroke, target);
+  TargetCurve wanted = shape.curves[at(curve_number) % shape.curves.size()];
   if (wanted.keypoints.empty())
-    wanted.keypoints =
-        study::keypoints(target.mesh(), target.half_edges(), wanted.points, shape.scale);
-  const study::IntendedCurve intended =
-      study::intended_curve(target.mesh(), wanted, study::placement_of(stroke).scale);
+    wanted.keypoints = keypoints(target.surface(), wanted.points, shape.scale);
+  const IntendedCurve intended = intended_curve(target.mesh(), wanted, placement_of(stroke).scale);
   for (const bool join : {true, false}) {
-    const study::Measures m = study::measure(target.mesh(), target.half_edges(), intended, curve,
-                                             motion, {.join_pieces = join});
+    const Measures m = measure(target.surface(), intended, curve, motion, {.join_pieces = join});
     // Sums of lengths and angles; NaN where the stroke leaves one undefined.
     for (const double sum : {m.d_ep_m, m.d_sym_m, m.k_e_rad_per_m, m.k_g_rad_per_m, m.f_g_rad_per_m,
                              m.t_h, m.t_c, m.frechet_m, m.l_x_m})
@@ -50,18 +45,18 @@ void measure(const spatial::Target& target, const study::TargetShape& shape, Ind
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const spatial::Target target(make_box(1, 1, 1, Vec3::Ones()));
+  static const Target target(make_box(1, 1, 1, Vec3::Ones()));
   std::string_view rest(reinterpret_cast<const char*>(data), size);
   const std::string_view sequence_text = take(rest), recording = take(rest);
   try {
-    const study::StudySequence sequence = io::read_study_sequence(sequence_text, "sequence");
-    const study::TargetSet set = io::read_targets(rest, "targets");
+    const StudySequence sequence = read_study_sequence(sequence_text, "sequence");
+    const TargetSet set = read_targets(rest, "targets");
     if (set.shapes.empty() || set.shapes[0].curves.empty()) return 0;
-    study::require_fits(set.shapes[0], target.mesh());
-    const std::vector<study::RecordedStroke> strokes = io::read_recording(recording, "recording");
+    require_fits(set.shapes[0], target.mesh());
+    const std::vector<RecordedStroke> strokes = read_recording(recording, "recording");
     for (const Index shape : sequence.shapes)
       for (const Index method : sequence.methods) {
-        const std::vector<study::Trial> trials = sequence.trials(method, shape);
+        const std::vector<Trial> trials = sequence.trials(method, shape);
         for (std::size_t i = 0; i < std::min(strokes.size(), trials.size()); ++i) try {
             measure(target, set.shapes[0], trials[i].curve, strokes[i]);
           } catch (const Error&) {

@@ -7,13 +7,12 @@
 #include <string_view>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 namespace {
 
+using mimicry::MeshFormat;
 using mimicry::TriangleMesh;
-using mimicry::io::MeshFormat;
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -39,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   TriangleMesh mesh;
   try {
     // glTF may use one mesh many times: small limits keep each run short.
-    mesh = mimicry::io::read_mesh(
+    mesh = mimicry::read_mesh(
         bytes, MeshFormat::MIMICRY_FUZZ_FORMAT, "input",
         {.max_vertices = 100'000, .max_faces = 100'000, .max_unfolded = 100'000});
   } catch (const mimicry::Error&) {
@@ -47,8 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   require(mesh.face_count() > 0);
   for (const bool text : {false, true})
-    require(same(
-        mesh, mimicry::io::read_mesh(mimicry::io::write_mesh(mesh, MeshFormat::ply, {.text = text}),
-                                     MeshFormat::ply, "copy")));
+    require(
+        same(mesh, mimicry::read_mesh(mimicry::write_mesh(mesh, MeshFormat::ply, {.text = text}),
+                                      MeshFormat::ply, "copy")));
   return 0;
 }

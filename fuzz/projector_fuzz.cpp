@@ -31,7 +31,7 @@ class Input {
   const std::uint8_t *data_, *end_;
 };
 
-bool is_same(const embedding::SmoothPoint& a, const embedding::SmoothPoint& b) {
+bool is_same(const SmoothPoint& a, const SmoothPoint& b) {
   return a.surface.face == b.surface.face && a.position == b.position && a.label == b.label;
 }
 
@@ -42,12 +42,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const TriangleMesh mesh(
       {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}});
-  const spatial::Target target(mesh);
-  embedding::Embedding e;
+  const Target target(mesh);
+  Embedding e;
   e.dimension = 1 + input.byte() % 9;
   e.mesh_vertex_count = mesh.vertex_count();
   e.faces.assign(mesh.faces().begin(), mesh.faces().end());
-  e.mesh_hash = embedding::content_hash(mesh);
+  e.mesh_hash = content_hash(mesh);
   e.diagonal = target.diagonal();
   e.positions.assign(mesh.positions().begin(), mesh.positions().end());
   for (int more = input.byte() % 16; more > 0; --more) {
@@ -64,8 +64,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t k = 0; k < dimension; ++k)
       e.values.push_back(input.number() + (k < 3 ? 2.0 * e.positions[v][Eigen::Index(k)] : 0.0));
   try {
-    const embedding::SmoothProjector projector(std::move(e), target);
-    embedding::ScpHint hint;
+    const SmoothProjector projector(std::move(e), target);
+    ScpHint hint;
     for (int i = 0; i < 16 && !input.is_empty(); ++i) {
       const double x = input.number(), y = input.number(), z = input.number();
       const Vec3 query(x, y, z);

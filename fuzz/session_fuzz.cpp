@@ -30,19 +30,19 @@ bool is_on(const TriangleMesh& mesh, const SurfacePoint& p) {
 }
 
 // Every point is on a face, and a reader can go from each to the next by the piece between them.
-void check_curve(const curve::ProjectedCurve& curve, const spatial::Target& target) {
+void check_curve(const ProjectedCurve& curve, const Target& target) {
   require(curve.pieces.size() == (curve.points.empty() ? 0 : curve.points.size() - 1));
   const double size = target.diagonal();
-  for (const curve::CurvePoint& p : curve.points) {
+  for (const CurvePoint& p : curve.points) {
     require(is_on(target.mesh(), p.surface));
     require(p.position.allFinite() && p.normal.allFinite());
     require((target.position(p.surface) - p.position).norm() <= 1e-6 * size);
   }
   for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
-    const curve::Piece& piece = curve.pieces[i];
+    const Piece& piece = curve.pieces[i];
     require(std::isfinite(piece.length) && piece.length >= 0.0);
     require(piece.first_crossing + std::size_t{piece.crossing_count} <= curve.crossings.size());
-    if (piece.kind == curve::PieceKind::gap) continue;
+    if (piece.kind == PieceKind::gap) continue;
     Vec3 last = curve.points[i].position;
     double length = 0.0;
     for (const Crossing& c : curve.piece_crossings(i)) {
@@ -74,21 +74,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const TriangleMesh mesh = messy::of_bytes(std::span(data + next, for_mesh));
   next += for_mesh;
 
-  std::optional<spatial::Target> target;
-  std::optional<embedding::SmoothProjector> projector;
+  std::optional<Target> target;
+  std::optional<SmoothProjector> projector;
   try {
     target.emplace(mesh);
     if (with_bake)
-      projector.emplace(bake::bake(target->mesh(), {.samples = 12, .offset = 0.4}, 1, in_time()),
+      projector.emplace(mimicry::bake(target->mesh(), {.samples = 12, .offset = 0.4}, 1, in_time()),
                         *target);
   } catch (const Error& error) {
     require(error.kind() == ErrorKind::invalid_input || error.kind() == ErrorKind::cancelled);
     return 0;
   }
 
-  std::vector<stroke::Frame> frames;
+  std::vector<Frame> frames;
   while (next < size && frames.size() < 24) {
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = 0.01 * static_cast<double>(frames.size());
     const auto coordinate = [&] { return byte() / 16.0 - 4.0; };
     for (int k = 0; k < 3; ++k) frame.controller.position[k] = coordinate();
@@ -100,17 +100,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Similarity model_to_world;
   model_to_world.scale = std::pow(2.0, placed % 16 - 8);
 
-  technique::Canvas canvas;
-  canvas.target = &*target;
-  canvas.projector = projector ? &*projector : nullptr;
-  for (const technique::TechniqueInfo& technique : technique::techniques()) {
+  Canvas canvas;
+  canvas.target = *target;
+  if (projector) canvas.projector = *projector;
+  for (const TechniqueInfo& technique : techniques()) {
     if (technique.needs_bake && !projector) continue;
-    session::SessionOptions options;
-    options.misses = placed & 16 ? session::MissPolicy::split : session::MissPolicy::connect;
+    SessionOptions options;
+    options.misses = placed & 16 ? MissPolicy::split : MissPolicy::connect;
     options.expected_frames = 32;
-    session::StrokeSession session(canvas, technique, options);
+    StrokeSession session(canvas, technique, options);
     session.begin(model_to_world);
-    for (const stroke::Frame& frame : frames) session.add(frame);
+    for (const Frame& frame : frames) session.add(frame);
     session.end();
     check_curve(session.curve(), *target);
   }

@@ -8,10 +8,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace mimicry;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    const auto file = io::read_strokes(bytes, "input");
+    const auto file = read_strokes(bytes, "input");
     if (file.numbers.size() != file.strokes.size()) __builtin_trap();
     // What is accepted can be written, and reads back to as much.
-    const auto again = io::read_strokes(io::write_strokes(file.strokes), "output");
+    const auto again = read_strokes(write_strokes(file.strokes), "output");
     if (again.strokes.size() != file.strokes.size() || !again.left_out.empty()) __builtin_trap();
   } catch (const Error&) {
   }

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/study_recording.h>
+#include <mimicry/io/study.h>
 
 // The first byte chooses the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -11,9 +11,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
     if (data[0] == 's')
-      (void)io::write_study_sequence(io::read_study_sequence(text, "input"));
+      (void)write_study_sequence(read_study_sequence(text, "input"));
     else
-      (void)io::write_recording(io::read_recording(text, "input"));
+      (void)write_recording(read_recording(text, "input"));
   } catch (const Error&) {
   }
   return 0;

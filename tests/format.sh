@@ -2,4 +2,4 @@
 # Every C++ file stands as .clang-format says.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-find include src tests bench fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run -Werror
+find include src examples tests bench fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run -Werror

@@ -10,12 +10,19 @@ import sys
 # Numbers all: 64-bit integers do not occur in the header.
 FUNCTION = re.compile(r"MIMICRY_API\s+([\w\s*]+?)\s*\b(mimicry_\w+)\(([^)]*)\);")
 BAKE_ONLY = {"mimicry_bake", "mimicry_default_bake_options"}
+# What the facade does not reach stays out of the module: a study's tools, callbacks, and other programs' coordinates, as
+# those of a page are the library's.
+NOT_HERE = re.compile(r"mimicry_(target_curves_\w+|strokes_simulate|default_s\w+_options|measure|keypoints|technique_register"
+                      r"|path_finder_\w+|exponential_map_\w+|convention\w*|mesh_(texcoords|colors|face_labels|label_\w+)"
+                      r"|(frames|placement|positions|axes|mesh)_(in|out)|curve_follow)$")
 BAKE_TOO = re.compile(r"mimicry_(last_error|bytes_\w+|mesh_create|mesh_destroy)$")
 
 
 def functions(header):
     text = re.sub(r"/\*.*?\*/", "", open(header, encoding="utf-8").read(), flags=re.S)
     for result, name, arguments in FUNCTION.findall(text):
+        if NOT_HERE.match(name):
+            continue
         arguments = [] if arguments.strip() == "void" else arguments.split(",")
         yield name, ts_type(result), [(re.search(r"(\w+)(\[\d+\])?$", a.strip())[1], ts_type(a)) for a in arguments]
 

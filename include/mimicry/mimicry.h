@@ -12,7 +12,8 @@
  * but where said otherwise.
  *
  * Different objects may be used from different threads, and meshes, targets and curves by several
- * at once; one session or one set of strokes by one thread at a time.
+ * at once; one session, set of strokes, path finder, exponential map, or search for a path by one
+ * thread at a time.
  */
 #ifndef MIMICRY_MIMICRY_H
 #define MIMICRY_MIMICRY_H
@@ -20,7 +21,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+/* MIMICRY_EXPORTS: mimicry.dll is being built. MIMICRY_DLL: it is being used (not needed: calls go
+ * through one more jump then). */
+#if defined(_WIN32)
+#if defined(MIMICRY_EXPORTS)
+#define MIMICRY_API __declspec(dllexport)
+#elif defined(MIMICRY_DLL)
+#define MIMICRY_API __declspec(dllimport)
+#else
+#define MIMICRY_API
+#endif
+#elif defined(__GNUC__)
 #define MIMICRY_API __attribute__((visibility("default")))
 #else
 #define MIMICRY_API
@@ -53,7 +64,7 @@ typedef enum mimicry_status MIMICRY_INT {
 MIMICRY_API const char* mimicry_last_error(void);
 
 /* Increased when a function or structure changes incompatibly. */
-#define MIMICRY_ABI_VERSION 1
+#define MIMICRY_ABI_VERSION 2
 MIMICRY_API int32_t mimicry_abi_version(void);
 
 typedef struct mimicry_mesh mimicry_mesh;             /* triangles, however broken */
@@ -64,6 +75,11 @@ typedef struct mimicry_curve_list mimicry_curve_list; /* what a curve file holds
 typedef struct mimicry_strokes mimicry_strokes;       /* recorded strokes */
 typedef struct mimicry_tube mimicry_tube;             /* a curve as triangles */
 typedef struct mimicry_bytes mimicry_bytes;           /* a file's content */
+typedef struct mimicry_geodesics mimicry_geodesics; /* distances from sources, and paths to them */
+typedef struct mimicry_path_finder
+    mimicry_path_finder; /* paths between points, the last one kept */
+typedef struct mimicry_exponential_map mimicry_exponential_map; /* a patch laid out in a plane */
+typedef struct mimicry_target_curves mimicry_target_curves;     /* intended curves of a study */
 
 MIMICRY_API const uint8_t* mimicry_bytes_data(const mimicry_bytes* bytes);
 MIMICRY_API size_t mimicry_bytes_size(const mimicry_bytes* bytes);
@@ -105,6 +121,34 @@ MIMICRY_API const int32_t* mimicry_mesh_faces(const mimicry_mesh* mesh);    /* #
 /* The size at which it is suggested to be shown: a shape's own; of others the bounding box's
  * diagonal is 0.6 m. */
 MIMICRY_API double mimicry_mesh_metres_per_unit(const mimicry_mesh* mesh);
+
+/* What a mesh's file tells beside its geometry, which nothing here looks at. Corners name their
+ * values by number: corners of one vertex that name different ones lie at a seam. */
+typedef struct mimicry_corner_values {
+  const float* values; /* count by 2 or 4 */
+  size_t count;
+  const int32_t* corners; /* #F by 3: the number of the corner's value, -1: it has none.
+                             NULL: the mesh carries none */
+} mimicry_corner_values;
+
+/* Texture coordinates u, v; v up. */
+MIMICRY_API mimicry_corner_values mimicry_mesh_texcoords(const mimicry_mesh* mesh);
+/* Linear red, green, blue and alpha. */
+MIMICRY_API mimicry_corner_values mimicry_mesh_colors(const mimicry_mesh* mesh);
+
+typedef enum mimicry_label_kind MIMICRY_INT {
+  MIMICRY_GROUPS = 0,
+  MIMICRY_MATERIALS = 1,
+  MIMICRY_OBJECTS = 2
+} mimicry_label_kind;
+
+/* #F: the number of the face's name, -1: it has none. NULL: the mesh carries none. */
+MIMICRY_API const int32_t* mimicry_mesh_face_labels(const mimicry_mesh* mesh,
+                                                    mimicry_label_kind kind);
+MIMICRY_API size_t mimicry_mesh_label_count(const mimicry_mesh* mesh, mimicry_label_kind kind);
+/* NULL where there is no such number. */
+MIMICRY_API const char* mimicry_mesh_label_name(const mimicry_mesh* mesh, mimicry_label_kind kind,
+                                                size_t number);
 
 typedef struct mimicry_mesh_report {
   double box_min[3];
@@ -159,6 +203,19 @@ typedef struct mimicry_surface_point {
   int32_t unused;
 } mimicry_surface_point;
 
+/* How a technique, or a query for smooth points, found a point. */
+typedef enum mimicry_answer MIMICRY_INT {
+  MIMICRY_NO_POINT = 0,
+  MIMICRY_RAY = 1,     /* first hit of a ray */
+  MIMICRY_CLOSEST = 2, /* closest point of the surface */
+  MIMICRY_SMOOTH = 3,  /* a smooth projection */
+  MIMICRY_SECTION = 4, /* end of a walk along the surface, or closest point of a section of it */
+  /* closest points in place of smooth ones: */
+  MIMICRY_OUTSIDE_SHELL = 5,
+  MIMICRY_NO_SMOOTH_POINT = 6,
+  MIMICRY_REPLACED = 7
+} mimicry_answer;
+
 typedef struct mimicry_target_options {
   int32_t join;   /* join vertices at equal positions at seams; 1 */
   int32_t strict; /* refuse what would be mended; 0 */
@@ -201,12 +258,42 @@ MIMICRY_API mimicry_status mimicry_target_first_hit(const mimicry_target* target
                                                     const double direction[3],
                                                     mimicry_surface_point* out);
 
+/* The same for many points: points #count by 3, out #count. upper_bound: at least 0. */
+MIMICRY_API mimicry_status mimicry_target_closest_points(const mimicry_target* target,
+                                                         const double* points, size_t count,
+                                                         double upper_bound,
+                                                         mimicry_surface_point* out);
+/* origins, directions: #count by 3. */
+MIMICRY_API mimicry_status mimicry_target_first_hits(const mimicry_target* target,
+                                                     const double* origins,
+                                                     const double* directions, size_t count,
+                                                     mimicry_surface_point* out);
+
+/* Moves the mesh's vertices: positions #V by 3, of the mesh as it was given. Sessions on the target
+ * draw on the moved surface from their next frame on; curves stay where they were until
+ * mimicry_curve_follow; distances (mimicry_geodesics) are to be made anew. Nothing else may use the
+ * target, or what stands on it, during the call. Fails, and changes nothing, where the count is
+ * another one, the positions could not be a target's, or the target has been given a bake, which is
+ * of one shape. Allocates nothing. O(#F). */
+MIMICRY_API mimicry_status mimicry_target_update_positions(mimicry_target* target,
+                                                           const double* positions,
+                                                           size_t vertex_count);
+
 /* A new target: the same one with its bake, the content of a .mimicry file that was made for the
  * same mesh. For techniques that need it. */
 MIMICRY_API mimicry_status mimicry_target_with_embedding(const mimicry_target* target,
                                                          const void* data, size_t size,
                                                          const char* name, mimicry_target** out);
 MIMICRY_API int32_t mimicry_target_has_embedding(const mimicry_target* target);
+/* The smooth closest points of points (#count by 3, model) on a target with its bake. out: #count,
+ * `distance` in a straight line. answers: how each was found, NULL or #count: MIMICRY_SMOOTH, or
+ * why it is a closest point instead. replace_failed: 1 to replace those that fail the paper's test.
+ */
+MIMICRY_API mimicry_status mimicry_target_smooth_closest_points(const mimicry_target* target,
+                                                                const double* points, size_t count,
+                                                                int32_t replace_failed,
+                                                                mimicry_surface_point* out,
+                                                                mimicry_answer* answers);
 
 /* Called during long work, in the thread that asked for it, with a stage's name and how far it is,
  * 0 to 1. Returning 0 cancels: the function gives MIMICRY_CANCELLED and makes nothing. */
@@ -227,34 +314,94 @@ MIMICRY_API mimicry_status mimicry_bake(const mimicry_mesh* mesh,
                                         const mimicry_bake_options* options,
                                         mimicry_progress progress, void* user, mimicry_bytes** out);
 
-/* Techniques --------------------------------------------------------------------------------- */
+/* Geodesics ---------------------------------------------------------------------------------- */
 
-typedef struct mimicry_option_info {
-  const char* name;
-  const char* unit;
-  const char* description;
-  int32_t count; /* of its numbers: 1, or the 3 of a vector */
+/* In what follows, of a surface point that is given only face and barycentric are read. */
+
+/* A vertex of a path on a surface: an end, or where it crosses an edge. */
+typedef struct mimicry_path_point {
+  double position[3]; /* model */
+  double t;           /* where on the half-edge, 0 to 1 */
+  int32_t half_edge;  /* 3 f + k: from corner k of face f to the next; -1 at the path's ends */
   int32_t unused;
-  double defaults[3];
-  double lowest; /* of each number */
-  double highest;
-} mimicry_option_info;
+} mimicry_path_point;
 
-typedef struct mimicry_technique_info {
-  const char* name;
-  const char* description; /* a line */
-  const char* source;      /* section or equation of the paper */
-  int32_t anchored;        /* looks at the last point too */
-  int32_t needs_bake;
-  int32_t option_count;
-  const mimicry_option_info* options;
-} mimicry_technique_info;
+/* Exact distances on the surface from the nearest of sources. radius: look no farther, model units,
+ * > 0; INFINITY for all. O(#F^1.5) in practice, where it can be cancelled. */
+MIMICRY_API mimicry_status mimicry_geodesics_create(const mimicry_target* target,
+                                                    const mimicry_surface_point* sources,
+                                                    size_t count, double radius,
+                                                    mimicry_progress progress, void* user,
+                                                    mimicry_geodesics** out);
+MIMICRY_API void mimicry_geodesics_destroy(mimicry_geodesics* geodesics);
+/* 0 on meshes on which the search gave up: distances are upper bounds then. */
+MIMICRY_API int32_t mimicry_geodesics_are_exact(const mimicry_geodesics* geodesics);
+/* distances: #count, model units; INFINITY where no source reaches a point within the radius. */
+MIMICRY_API mimicry_status mimicry_geodesics_distances(const mimicry_geodesics* geodesics,
+                                                       const mimicry_surface_point* points,
+                                                       size_t count, double* distances);
+/* distances: #V, of the mesh's vertices; INFINITY also where no face uses one. */
+MIMICRY_API mimicry_status mimicry_geodesics_vertex_distances(const mimicry_geodesics* geodesics,
+                                                              double* distances,
+                                                              size_t vertex_count);
+/* The shortest path from the nearest source (its number, NULL if of no interest) to a point.
+ * length: INFINITY, and no path, where no source reaches the point. The path is the object's until
+ * the next one. */
+MIMICRY_API mimicry_status mimicry_geodesics_find_path(mimicry_geodesics* geodesics,
+                                                       const mimicry_surface_point* to,
+                                                       double* length, int32_t* source);
+MIMICRY_API const mimicry_path_point* mimicry_geodesics_path(const mimicry_geodesics* geodesics);
+MIMICRY_API size_t mimicry_geodesics_path_count(const mimicry_geodesics* geodesics);
 
-MIMICRY_API int32_t mimicry_technique_count(void);
-/* NULL where there is no such number. */
-MIMICRY_API const mimicry_technique_info* mimicry_technique(int32_t number);
+/* Shortest paths between nearby points in real time, and straightest ones, without preparation of
+ * the target, which may move. Allocates nothing for paths no longer than earlier ones. */
+MIMICRY_API mimicry_status mimicry_path_finder_create(const mimicry_target* target,
+                                                      mimicry_path_finder** out);
+MIMICRY_API void mimicry_path_finder_destroy(mimicry_path_finder* finder);
+/* length: INFINITY, and no path, where the surface does not join the points. is_shortest (may be
+ * NULL): 0 where the path is straight but the search for a shorter one was given up. */
+MIMICRY_API mimicry_status mimicry_path_finder_find(mimicry_path_finder* finder,
+                                                    const mimicry_surface_point* from,
+                                                    const mimicry_surface_point* to, double* length,
+                                                    int32_t* is_shortest);
+/* Walks straight on over the surface. direction: model, any length; its part along the surface
+ * counts. length: model units, at least 0. *walked: less than length where the walk met a boundary,
+ * a place where sheets touch, or had no direction. *end, of which distance is the length walked,
+ * and *walked may be NULL. */
+MIMICRY_API mimicry_status mimicry_path_finder_trace(mimicry_path_finder* finder,
+                                                     const mimicry_surface_point* from,
+                                                     const double direction[3], double length,
+                                                     mimicry_surface_point* end, double* walked);
+/* The last path: its vertices from end to end; it lives until the next call. */
+MIMICRY_API const mimicry_path_point* mimicry_path_finder_path(const mimicry_path_finder* finder);
+MIMICRY_API size_t mimicry_path_finder_path_count(const mimicry_path_finder* finder);
 
-/* Sessions ----------------------------------------------------------------------------------- */
+/* The tangent plane at the centre of a patch. */
+typedef struct mimicry_tangent_plane {
+  double origin[3];
+  double x_axis[3]; /* unit, orthogonal to each other and to the normal */
+  double y_axis[3];
+  double normal[3];
+} mimicry_tangent_plane;
+
+/* The discrete exponential map: the surface around a point laid out in its tangent plane. */
+MIMICRY_API mimicry_status mimicry_exponential_map_create(const mimicry_target* target,
+                                                          mimicry_exponential_map** out);
+MIMICRY_API void mimicry_exponential_map_destroy(mimicry_exponential_map* map);
+/* radius: model units, > 0; INFINITY for all that is connected. x_hint: direction of the x axis, or
+ * NULL for any. plane may be NULL. O(patch log patch). */
+MIMICRY_API mimicry_status mimicry_exponential_map_compute(mimicry_exponential_map* map,
+                                                           const mimicry_surface_point* centre,
+                                                           double radius, const double x_hint[3],
+                                                           mimicry_tangent_plane* plane);
+/* The patch's vertices, nearest first, and where they lie (#count by 2: length is distance), until
+ * the next call. Numbers are the mesh's; of vertices that were joined the lowest stands for all
+ * (mimicry_target_surface_sources). */
+MIMICRY_API size_t mimicry_exponential_map_count(const mimicry_exponential_map* map);
+MIMICRY_API const int32_t* mimicry_exponential_map_vertices(const mimicry_exponential_map* map);
+MIMICRY_API const double* mimicry_exponential_map_coordinates(const mimicry_exponential_map* map);
+
+/* Frames ------------------------------------------------------------------------------------- */
 
 /* x_world = scale (rotation x_model) + translation */
 typedef struct mimicry_similarity {
@@ -273,6 +420,128 @@ typedef struct mimicry_frame {
   double trigger;  /* 0 to 1 */
   double pressure; /* 0 to 1; below 0 where there is none */
 } mimicry_frame;
+
+/* Other programs' coordinates: "openxr", "unity", "unreal", "paper" (formats.md). `in` converts
+ * from theirs to those of this header, `out` back; from and to may be the same array. */
+MIMICRY_API int32_t mimicry_convention_count(void);
+/* NULL where there is no such number. */
+MIMICRY_API const char* mimicry_convention(int32_t number);
+/* Poses of devices in the world. */
+MIMICRY_API mimicry_status mimicry_frames_in(const char* convention, const mimicry_frame* from,
+                                             size_t count, mimicry_frame* to);
+MIMICRY_API mimicry_status mimicry_frames_out(const char* convention, const mimicry_frame* from,
+                                              size_t count, mimicry_frame* to);
+/* Where a model stands, whose own axes change like the world's. */
+MIMICRY_API mimicry_status mimicry_placement_in(const char* convention,
+                                                const mimicry_similarity* from,
+                                                mimicry_similarity* to);
+MIMICRY_API mimicry_status mimicry_placement_out(const char* convention,
+                                                 const mimicry_similarity* from,
+                                                 mimicry_similarity* to);
+/* Positions in the world, #count by 3: axes and unit of length. */
+MIMICRY_API mimicry_status mimicry_positions_in(const char* convention, const double* from,
+                                                size_t count, double* to);
+MIMICRY_API mimicry_status mimicry_positions_out(const char* convention, const double* from,
+                                                 size_t count, double* to);
+/* Axes alone, #count by 3: directions, normals, and positions in a model's own units. */
+MIMICRY_API mimicry_status mimicry_axes_in(const char* convention, const double* from, size_t count,
+                                           double* to);
+MIMICRY_API mimicry_status mimicry_axes_out(const char* convention, const double* from,
+                                            size_t count, double* to);
+/* A mesh whose positions the other program gave, in the axes of this header, units as they were.
+ * Of left-handed programs, whose front faces are clockwise, the second and third corner of every
+ * face are exchanged; so are barycentric coordinates on it. Its own inverse for `out`. */
+MIMICRY_API mimicry_status mimicry_mesh_in(const char* convention, const mimicry_mesh* mesh,
+                                           mimicry_mesh** out);
+MIMICRY_API mimicry_status mimicry_mesh_out(const char* convention, const mimicry_mesh* mesh,
+                                            mimicry_mesh** out);
+
+/* Techniques --------------------------------------------------------------------------------- */
+
+typedef enum mimicry_option_kind MIMICRY_INT {
+  MIMICRY_OPTION_BOOLEAN = 0,   /* 0 or 1 */
+  MIMICRY_OPTION_NUMBER = 1,    /* lowest to highest */
+  MIMICRY_OPTION_DIRECTION = 2, /* three, lowest to highest, not all zero */
+  MIMICRY_OPTION_CHOICE = 3     /* the number of one of its choices, from 0 */
+} mimicry_option_kind;
+
+typedef struct mimicry_option_info {
+  const char* name;
+  const char* unit;
+  const char* description;
+  mimicry_option_kind kind;
+  int32_t count; /* of its numbers: 3 of a direction, else 1 */
+  int32_t choice_count;
+  const char* const* choices; /* names of a choice's values; else NULL */
+  double defaults[3];
+  double lowest; /* of each number */
+  double highest;
+} mimicry_option_info;
+
+/* What a technique makes of the controller, and so how people steer with it. */
+typedef enum mimicry_steering MIMICRY_INT {
+  MIMICRY_AIMED = 0, /* the point is where the controller points: people turn the wrist */
+  MIMICRY_MOVED = 1  /* the hand's place or motion counts */
+} mimicry_steering;
+
+typedef struct mimicry_technique_info {
+  const char* name;
+  const char* title;       /* for people */
+  const char* sentence;    /* for someone who has never read of it */
+  const char* description; /* a line, exact */
+  const char* source;      /* section or equation of the paper */
+  const char* screen_note; /* why a pen on a screen draws little with it; empty where it does not */
+  uint32_t color;          /* sRGB, 0xrrggbb, of its curves in documents and pictures */
+  mimicry_steering steering;
+  int32_t anchored; /* looks at the last point too */
+  int32_t needs_bake;
+  int32_t rank; /* those of lower rank are offered to people first */
+  int32_t option_count;
+  const mimicry_option_info* options;
+} mimicry_technique_info;
+
+MIMICRY_API int32_t mimicry_technique_count(void);
+/* NULL where there is no such number. What it says lives as long as the program. */
+MIMICRY_API const mimicry_technique_info* mimicry_technique(int32_t number);
+
+/* A technique of your own. Called once a frame, in the thread that adds the frame; several threads
+ * may draw with it at once. target: only for queries, and only during the call. frame: in the
+ * target's coordinates and units. metres_per_unit: at which the target is shown. options: the
+ * values of all options in their order, 1 number each and 3 of a direction. memory: of memory_size
+ * bytes, 0 when a stroke starts; what is written is there in the next frame. Returns how it found a
+ * point, of which it sets `face` and `barycentric` (as the queries give them; position, normal and
+ * distance are not read), or MIMICRY_NO_POINT. A point off the target counts as none. Should depend
+ * on its arguments alone, so that a recorded stroke always gives the same curve. */
+typedef mimicry_answer (*mimicry_step_function)(void* user, const mimicry_target* target,
+                                                const mimicry_frame* frame, double metres_per_unit,
+                                                const double* options, void* memory,
+                                                mimicry_surface_point* point);
+
+/* All texts and options are copied. name: lower case letters and digits, words joined by '-'. Of
+ * options, `count` is not read. NULL texts are empty, a NULL title is the name. */
+typedef struct mimicry_own_technique {
+  const char* name;
+  const char* title;
+  const char* sentence;
+  const char* description;
+  const mimicry_option_info* options;
+  int32_t option_count; /* at most 64 */
+  uint32_t color;       /* 0xrrggbb */
+  mimicry_steering steering;
+  int32_t anchored;
+  int32_t needs_bake;
+  int32_t rank;
+  size_t memory_size; /* at most 1 MiB */
+  mimicry_step_function step;
+  void* user; /* must stay valid until the program ends */
+} mimicry_own_technique;
+
+/* Adds it to the techniques that sessions and files know by name, until the program ends; at most
+ * 200. *number, which may be NULL: of mimicry_technique. */
+MIMICRY_API mimicry_status mimicry_technique_register(const mimicry_own_technique* technique,
+                                                      int32_t* number);
+
+/* Sessions ----------------------------------------------------------------------------------- */
 
 typedef enum mimicry_frame_status MIMICRY_INT {
   MIMICRY_FRAME_INKED = 0,
@@ -360,6 +629,9 @@ MIMICRY_API mimicry_status mimicry_curve_with_radii(const mimicry_curve* curve, 
  * finite. */
 MIMICRY_API mimicry_status mimicry_curve_with_lift(const mimicry_curve* curve, double lift,
                                                    mimicry_curve** out);
+
+/* A copy on the target as it stands now, after mimicry_target_update_positions. */
+MIMICRY_API mimicry_status mimicry_curve_follow(const mimicry_curve* curve, mimicry_curve** out);
 
 /* Edits make a new curve on the surface and leave the old one. Radii stay where the points do: in
  * slices and smoothed curves. */
@@ -461,6 +733,142 @@ MIMICRY_API mimicry_status mimicry_strokes_placement(const mimicry_strokes* stro
 MIMICRY_API mimicry_status mimicry_strokes_frames(const mimicry_strokes* strokes, size_t number,
                                                   mimicry_frame* frames);
 MIMICRY_API void mimicry_strokes_destroy(mimicry_strokes* strokes);
+
+/* Studies ------------------------------------------------------------------------------------ */
+
+/* Curves that people are asked to draw, sampled or read from a file of them. */
+typedef struct mimicry_sampling_options {
+  double least_k_g; /* geodesic distance between controls, in diagonals */
+  double most_k_g;
+  double least_k_n_rad; /* angle between the controls' normals */
+  double most_k_n_rad;
+  int32_t controls;      /* of a curve, at least 4 */
+  int32_t points;        /* of a curve, at least 2 */
+  int32_t most_attempts; /* for one curve */
+  int32_t unused;
+} mimicry_sampling_options;
+
+MIMICRY_API mimicry_sampling_options mimicry_default_sampling_options(void); /* the paper's */
+/* count: 1 to 1000 curves on a target with its bake. metres_per_unit: > 0, for the keypoints.
+ * options: NULL for the defaults. Equal arguments give equal curves. Can be cancelled. */
+MIMICRY_API mimicry_status mimicry_target_curves_sample(const mimicry_target* target, size_t count,
+                                                        uint32_t seed, double metres_per_unit,
+                                                        const mimicry_sampling_options* options,
+                                                        mimicry_progress progress, void* user,
+                                                        mimicry_target_curves** out);
+/* The curves of one shape of a file. shape: its name in the file; NULL where it is the only one. */
+MIMICRY_API mimicry_status mimicry_target_curves_read(const void* data, size_t size,
+                                                      const char* name, const char* shape,
+                                                      mimicry_target_curves** out);
+/* A file with the curves of one shape. note: for its readers, may be NULL. */
+MIMICRY_API mimicry_status mimicry_target_curves_write(const mimicry_target_curves* curves,
+                                                       const char* shape, const char* note,
+                                                       mimicry_bytes** out);
+MIMICRY_API void mimicry_target_curves_destroy(mimicry_target_curves* curves);
+MIMICRY_API double mimicry_target_curves_metres_per_unit(const mimicry_target_curves* curves);
+MIMICRY_API size_t mimicry_target_curves_count(const mimicry_target_curves* curves);
+/* Of a curve; 0 where there is no such number. */
+MIMICRY_API size_t mimicry_target_curves_point_count(const mimicry_target_curves* curves,
+                                                     size_t number);
+MIMICRY_API size_t mimicry_target_curves_keypoint_count(const mimicry_target_curves* curves,
+                                                        size_t number);
+/* points: room for all, with position and normal of this target, whose mesh the curves were made
+ * on. */
+MIMICRY_API mimicry_status mimicry_target_curves_points(const mimicry_target_curves* curves,
+                                                        size_t number, const mimicry_target* target,
+                                                        mimicry_surface_point* points);
+/* Numbers of the curve's points; NULL where there are none. */
+MIMICRY_API const int32_t* mimicry_target_curves_keypoints(const mimicry_target_curves* curves,
+                                                           size_t number);
+
+/* The points by which a curve is shown when it is to be re-created: ends, bends, long sections.
+ * numbers: room for count; *found of them are written, increasing. */
+MIMICRY_API mimicry_status mimicry_keypoints(const mimicry_target* target,
+                                             const mimicry_surface_point* points, size_t count,
+                                             double metres_per_unit, int32_t* numbers,
+                                             size_t* found);
+
+/* What is measured of a stroke and its curve against the intended curve X, whose length is L_X.
+ * World lengths. */
+typedef struct mimicry_measures {
+  double d_ep_m;        /* mean distance of corresponding points */
+  double d_sym_m;       /* mean closest distance, both ways */
+  double k_e_rad_per_m; /* turning in space / L_X */
+  double k_g_rad_per_m; /* geodesic curvature, total / L_X */
+  double f_g_rad_per_m; /* its change from node to node, total / L_X */
+  double t_h;           /* path of the head / L_X */
+  double r_h_rad_per_m; /* rotation of the head / L_X */
+  double t_c;           /* path of the controller / L_X */
+  double r_c_rad_per_m; /* rotation of the controller / L_X */
+  double tau_s;         /* duration */
+  double mimicry_violation;
+  double l_x_m;
+  double k_g_normalised_rad_per_m;
+  double largest_jump;  /* of the curve by that of the hand, from frame to frame */
+  double share_jumping; /* of frames, 0 to 1 */
+  double frechet_m;
+  double end_lag_m;
+  double length_ratio;
+  int32_t gaps;
+  int32_t boundary_nodes;
+  int32_t undefined_nodes;
+  int32_t too_short; /* the paper leaves such strokes out: */
+  int32_t noisy;
+  int32_t inverted;
+} mimicry_measures;
+
+/* frames: those that drew the curve, of the target at model_to_world. intended: X, at least two
+ * points. keypoints: numbers of its points; none: it is not told whether the curve was drawn the
+ * other way round. join_pieces: 1 as in the paper; 0: what joins pieces does not count as curved.
+ */
+MIMICRY_API mimicry_status mimicry_measure(const mimicry_curve* curve,
+                                           const mimicry_similarity* model_to_world,
+                                           const mimicry_frame* frames, size_t frame_count,
+                                           const mimicry_surface_point* intended,
+                                           size_t intended_count, const int32_t* keypoints,
+                                           size_t keypoint_count, int32_t join_pieces,
+                                           mimicry_measures* out);
+
+typedef enum mimicry_hand_copy MIMICRY_INT {
+  MIMICRY_COPY_AUTOMATIC = 0,
+  MIMICRY_COPY_TRANSLATED = 1,
+  MIMICRY_COPY_OFFSET = 2,
+  MIMICRY_COPY_PLACED = 3,
+  MIMICRY_COPY_TURNED = 4
+} mimicry_hand_copy;
+
+/* What a simulated person does (docs/study.md). */
+typedef struct mimicry_simulation_options {
+  double rate_hz; /* 20 to 1000 */
+  double least_duration_s;
+  double most_duration_s;
+  double mean_distance_m; /* from hand to target */
+  double smoothing_m;
+  double drift_m;
+  double tremor_m;
+  double noise_m;
+  double wobble_rad; /* of the controller's aim */
+  double start_error_m;
+  double turn_tremor_rad;
+  double turn_noise_rad;
+  double head_distance_m;
+  double head_follow;
+  double feedback_delay_s; /* of who sees the ink */
+  double feedback_gain_per_s;
+  mimicry_hand_copy copy; /* of the curve, that the hand follows in the air */
+  int32_t unused;
+} mimicry_simulation_options;
+
+MIMICRY_API mimicry_simulation_options mimicry_default_simulation_options(void);
+/* Appends the stroke of a simulated person who means the curve `intended` (at least two points).
+ * technique: whose ink the person sees and corrects; NULL: none's. id: the stroke's; target_name:
+ * NULL for the mesh's. options: NULL for the defaults. Equal arguments give equal strokes. About 10
+ * ms. */
+MIMICRY_API mimicry_status mimicry_strokes_simulate(
+    mimicry_strokes* strokes, const mimicry_target* target, const char* technique, const char* id,
+    const char* target_name, const mimicry_similarity* model_to_world,
+    const mimicry_surface_point* intended, size_t intended_count,
+    const mimicry_simulation_options* options, uint32_t seed);
 
 #ifdef __cplusplus
 }

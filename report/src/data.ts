@@ -1,4 +1,4 @@
-/** What src/cli/report/figure_data.cpp writes; all numbers are computed there. */
+/** What src/lab/report_data.cpp writes; all numbers are computed there. */
 export interface Method {
   name: string;
   color: string;

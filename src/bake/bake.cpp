@@ -8,28 +8,28 @@
 #include <Eigen/QR>
 
 #include <mimicry/bake/bake.h>
-#include <mimicry/bake/ls_mesh.h>
-#include <mimicry/bake/mds.h>
-#include <mimicry/bake/quality.h>
-#include <mimicry/bake/samples.h>
-#include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/fast_marching.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/phong/tangent_bases.h>
 
-#include "bake/normal_wishes.h"
+#include "bake/ls_mesh.h"
+#include "bake/mds.h"
+#include "bake/normal_constraints.h"
+#include "bake/quality.h"
+#include "bake/samples.h"
+#include "bake/shell.h"
 #include "bake/unit_mesh.h"
+#include "geodesic/fast_marching.h"
+#include "phong/tangent_bases.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 void check(const BakeOptions& options) {
   const auto refuse = [](const std::string& what) {
     throw Error(ErrorKind::invalid_input, "bake: " + what);
   };
-  if (options.dimension < 3 || options.dimension > 64)
-    refuse("dimension " + std::to_string(options.dimension) + "; it must be 3 to 64");
+  if (options.dimension < 3 || options.dimension > 8)
+    refuse("dimension " + std::to_string(options.dimension) + "; it must be 3 to 8");
   if (options.samples < 10 || options.samples > 20000)
     refuse(std::to_string(options.samples) + " samples; there must be 10 to 20000");
   if (!(options.offset >= 1e-3 && options.offset <= 0.5))
@@ -95,7 +95,7 @@ class LsMeshStage {
   Values run(BakeQuality& quality) {
     if (shell_.is_lattice) return lattice(quality);
     Values values = tied(quality);
-    if (values.cols() <= phong::kDimension) turn_normals(values, quality);
+    if (values.cols() <= kDimension) turn_normals(values, quality);
     return values;
   }
 
@@ -199,15 +199,15 @@ class LsMeshStage {
   // and where the last digits do not show.
   void turn_normals(Values& values, BakeQuality& quality) {
     constexpr double kLoose = 1e-4;
-    NormalWishes wishes = normal_wishes(mesh_, shell_, values);
+    NormalConstraints constraints = normal_constraints(mesh_, shell_, values);
     const std::vector<Index> all = mesh_vertices();
     const Values on_surface = values.topRows(mesh_.vertex_count());
     LsMeshInput input = of_shell();
     input.fixed = all;
     input.fixed_values = &on_surface;
     input.start = &values;
-    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(wishes.wishes),
-                                     std::move(wishes.values), kMost, kLoose);
+    LsMeshResult result = solve<Tet>(input, shell_.tets, std::move(constraints.constraints),
+                                     std::move(constraints.values), kMost, kLoose);
     quality.ls_mesh_iterations += result.iterations;
     quality.hit_a_cap = quality.hit_a_cap || !result.converged;
     values = std::move(result.values);
@@ -271,7 +271,7 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   out.dimension = options.dimension;
   out.mesh_vertex_count = mesh.vertex_count();
   out.faces.assign(mesh.faces().begin(), mesh.faces().end());
-  out.mesh_hash = embedding::content_hash(mesh);
+  out.mesh_hash = content_hash(mesh);
   out.diagonal = unit.diagonal;
   out.options = options;
   BakeQuality& quality = out.quality;
@@ -289,7 +289,7 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   std::vector<Index> samples;
   Values sample_values;
   {
-    const geodesic::FastMarching march(unit.mesh);
+    const FastMarching march(unit.mesh);
     report(progress, "samples", 0.0);
     samples = farthest_points(unit.mesh, march, options.samples, progress);
     const Eigen::MatrixXd distances =
@@ -335,9 +335,9 @@ Embedding bake(const TriangleMesh& given, const BakeOptions& options, int thread
   out.tets.reserve(shell.tets.size());
   for (const Tet& t : shell.tets)
     out.tets.push_back({renumber(t[0]), renumber(t[1]), renumber(t[2]), renumber(t[3])});
-  embedding::sort_for_search(out);
+  sort_for_search(out);
   report(progress, "done", 1.0);
   return out;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

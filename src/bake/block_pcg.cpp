@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kRowChunk = 2048;  // rows of a vector that one thread takes at a time
@@ -308,4 +308,4 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
   return result;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

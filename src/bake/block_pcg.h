@@ -5,7 +5,7 @@
 #include <mimicry/base/parallel.h>
 #include <mimicry/base/types.h>
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// Right-hand sides that are solved together: one cache line of doubles, two registers of floats.
 inline constexpr int kBlock = 8;
@@ -62,4 +62,4 @@ class BlockPcg {
   float shift_ = 0.0F;
 };
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,3 +1,5 @@
+#include "bake/delaunay.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -5,11 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include <mimicry/bake/delaunay.h>
-
 #include "bake/morton.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Face i of a cell, opposite vertex i, ordered so that (face, vertex i) is positive.
@@ -336,4 +336,4 @@ std::vector<Tet> Delaunay::tets() const {
   return out;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/bake/delaunay.h>
+#include "bake/delaunay.h"
+#include "base/compiler.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Differences of 24-bit coordinates are below 2^24, their products and sums of two are exact in 64
 // bits, an orientation is below 2^75, and the whole in-sphere determinant below 2^126.3.
-__extension__ typedef __int128 Int128;
 
 int sign(double x) {
   return (x > 0.0) - (x < 0.0);
@@ -90,4 +90,4 @@ int in_sphere(const GridPoint& a, const GridPoint& b, const GridPoint& c, const 
   return sign(in_sphere_determinant<std::int64_t, Int128>(Row64(i), Row64(j), Row64(k), Row64(l)));
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <mimicry/bake/ls_mesh.h>
+#include "bake/ls_mesh.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 bool is_flat_tet(std::span<const Vec3> positions, const Tet& t) {
@@ -60,4 +60,4 @@ std::span<const BorrowedGradients::Term> BorrowedGradients::of(Index tet) const 
   return std::span(terms_).subspan(start_[k], start_[k + 1] - start_[k]);
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include <mimicry/bake/delaunay.h>
+#include "bake/delaunay.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// Elements (tetrahedra or triangles) around each vertex: those of vertex v are
 /// element[start[v]] to element[start[v + 1] - 1], rising.
@@ -54,4 +54,4 @@ class BorrowedGradients {
   std::vector<Term> terms_;
 };
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

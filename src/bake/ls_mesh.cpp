@@ -1,3 +1,5 @@
+#include "bake/ls_mesh.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -5,13 +7,11 @@
 #include <type_traits>
 #include <utility>
 
-#include <mimicry/bake/ls_mesh.h>
-
 #include "bake/block_pcg.h"
 #include "bake/flat_tets.h"
 #include "bake/morton.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Stiffness of the element's corner `k` against its other corners, and its share of the mass; false
@@ -305,4 +305,4 @@ LsMeshResult ls_mesh(const LsMeshInput& input, const LsMeshOptions& options, Exe
   return solve<Tet>(input, input.tets, options, executor, progress);
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

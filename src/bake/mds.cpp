@@ -1,3 +1,5 @@
+#include "bake/mds.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,11 +10,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-#include <mimicry/bake/mds.h>
-
 #include "bake/morton.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 using Eigen::MatrixXd;
@@ -235,4 +235,4 @@ MdsResult multidimensional_scaling(const Eigen::MatrixXd& distances, const MdsOp
   return result;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

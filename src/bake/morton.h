@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// Spreads the low 21 bits of x to every third bit.
 inline std::uint64_t spread_bits(std::uint64_t x) {
@@ -29,4 +29,4 @@ inline std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

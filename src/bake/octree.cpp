@@ -6,13 +6,13 @@
 
 #include "bake/morton.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kCellChunk = 256;
 
-double size_at(const Surface& surface, const std::vector<double>& local_size,
-               const spatial::NearestTriangle& nearest) {
+double size_at(const UnitSurface& surface, const std::vector<double>& local_size,
+               const NearestTriangle& nearest) {
   double size = 0.0;
   for (int k = 0; k < 3; ++k)
     size += nearest.surface.bary[k] * local_size[static_cast<std::size_t>(surface.mesh().face(
@@ -41,7 +41,7 @@ std::vector<double> local_sizes(const TriangleMesh& mesh) {
   return sum;
 }
 
-std::optional<Octree> make_octree(const Surface& surface, const std::vector<double>& local_size,
+std::optional<Octree> make_octree(const UnitSurface& surface, const std::vector<double>& local_size,
                                   const Grading& grading, double half_side, Executor& executor) {
   Octree octree;
   octree.half_side = half_side;
@@ -96,7 +96,7 @@ std::optional<Octree> make_octree(const Surface& surface, const std::vector<doub
   return octree;
 }
 
-std::vector<OctreeNode> octree_nodes(const Octree& octree, const Surface& surface,
+std::vector<OctreeNode> octree_nodes(const Octree& octree, const UnitSurface& surface,
                                      const std::vector<double>& local_size, bool centres,
                                      Executor& executor) {
   // Coordinates doubled so that centres are whole numbers.
@@ -146,4 +146,4 @@ std::vector<OctreeNode> octree_nodes(const Octree& octree, const Surface& surfac
   return nodes;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

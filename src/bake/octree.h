@@ -9,7 +9,7 @@
 
 #include "bake/unit_mesh.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// A cube of the octree: its lower corner in units of the finest cell, its side in the same.
 struct OctreeCell {
@@ -48,17 +48,17 @@ struct Grading {
 /// The leaves within `offset` of the surface, in a fixed order: a cell is split while it is larger
 /// than `side` times the local size of the triangles, plus slope times the distance beyond it.
 /// local_size: #V, unit mesh. nullopt where there would be more than most_cells.
-std::optional<Octree> make_octree(const Surface& surface, const std::vector<double>& local_size,
+std::optional<Octree> make_octree(const UnitSurface& surface, const std::vector<double>& local_size,
                                   const Grading& grading, double half_side, Executor& executor);
 
 /// The corners and, where `centres`, the centres of the cells, each once. They are points of the
 /// Delaunay grid: where several lie on one sphere the ties are exact, and no slivers come of
 /// rounding.
-std::vector<OctreeNode> octree_nodes(const Octree& octree, const Surface& surface,
+std::vector<OctreeNode> octree_nodes(const Octree& octree, const UnitSurface& surface,
                                      const std::vector<double>& local_size, bool centres,
                                      Executor& executor);
 
 /// Mean length of the edges at each vertex; the mean over the mesh where there is none.
 std::vector<double> local_sizes(const TriangleMesh& mesh);
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

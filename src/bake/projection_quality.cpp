@@ -1,16 +1,13 @@
+#include "bake/projection_quality.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include <mimicry/bake/projection_quality.h>
 #include <mimicry/base/random.h>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
-
-using embedding::ScpHint;
-using embedding::ScpLabel;
-using embedding::SmoothProjector;
 
 constexpr std::size_t kPointChunk = 16, kPointBlock = 16 * kPointChunk;
 constexpr int kPointsPerTet = 4;
@@ -66,8 +63,8 @@ Counts sum(std::size_t count, Executor& executor, const ProgressCallback& progre
 
 ProjectionQuality projection_quality(const SmoothProjector& projector, Executor& executor,
                                      const ProgressCallback& progress) {
-  const embedding::Embedding& e = projector.embedding();
-  const spatial::Target& target = projector.target();
+  const Embedding& e = projector.embedding();
+  const Target& target = projector.target();
   const double diagonal = target.diagonal(), allowed = diagonal / 20.0,
                offset = e.options.offset * diagonal;
 
@@ -132,4 +129,4 @@ ProjectionQuality projection_quality(const SmoothProjector& projector, Executor&
   return quality;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,10 +1,10 @@
+#include "bake/quality.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <mimicry/bake/quality.h>
-
-namespace mimicry::bake {
+namespace mimicry {
 
 double sliver_percent(std::span<const Tet> tets, const Values& values) {
   if (tets.empty()) return 0.0;
@@ -32,4 +32,4 @@ double sliver_percent(std::span<const Tet> tets, const Values& values) {
   return 100.0 * static_cast<double>(slivers) / (6.0 * static_cast<double>(tets.size()));
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

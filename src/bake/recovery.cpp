@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Pieces are not cut below this part of the diagonal.
@@ -28,7 +28,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {
 
 }  // namespace
 
-Recovery::Recovery(const Surface& surface, Delaunay& delaunay, std::vector<Vec3>& positions,
+Recovery::Recovery(const UnitSurface& surface, Delaunay& delaunay, std::vector<Vec3>& positions,
                    std::vector<double>& distances, double half_side, Executor& executor)
     : surface_(surface),
       mesh_(surface.mesh()),
@@ -348,4 +348,4 @@ void Recovery::count(double most_edges) {
   crossing_faces_ = static_cast<Index>(std::count(crossing_.begin(), crossing_.end(), true));
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -4,20 +4,20 @@
 #include <span>
 #include <vector>
 
-#include <mimicry/bake/delaunay.h>
-#include <mimicry/bake/ls_mesh.h>
 #include <mimicry/base/parallel.h>
 
+#include "bake/delaunay.h"
+#include "bake/ls_mesh.h"
 #include "bake/unit_mesh.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// Adds points on a surface to Delaunay tetrahedra that have its vertices first until its edges and
 /// faces stand among them.
 class Recovery {
  public:
   /// distances: of the other vertices of `delaunay` from the surface; positions: of all.
-  Recovery(const Surface& surface, Delaunay& delaunay, std::vector<Vec3>& positions,
+  Recovery(const UnitSurface& surface, Delaunay& delaunay, std::vector<Vec3>& positions,
            std::vector<double>& distances, double half_side, Executor& executor);
 
   /// One round; whether anything was added. Faces are looked at when no edge is missing.
@@ -60,7 +60,7 @@ class Recovery {
   std::size_t segment_of(Index u, Index v) const;
   void sort_segments();
 
-  const Surface& surface_;
+  const UnitSurface& surface_;
   const TriangleMesh& mesh_;
   Delaunay& delaunay_;
   std::vector<Vec3>& positions_;
@@ -79,4 +79,4 @@ class Recovery {
   bool left_out_ = false;  // something found in this round was not acted upon
 };
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

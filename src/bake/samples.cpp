@@ -1,12 +1,11 @@
+#include "bake/samples.h"
+
 #include <algorithm>
 
-#include <mimicry/bake/samples.h>
+namespace mimicry {
 
-namespace mimicry::bake {
-
-std::vector<Index> farthest_points(const TriangleMesh& mesh,
-                                   const geodesic::FastMarching& distances, Index count,
-                                   const ProgressCallback& progress) {
+std::vector<Index> farthest_points(const TriangleMesh& mesh, const FastMarching& distances,
+                                   Index count, const ProgressCallback& progress) {
   // Vertices without faces are nearest to something already.
   std::vector<double> nearest(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
   for (const Face& f : mesh.faces())
@@ -24,7 +23,7 @@ std::vector<Index> farthest_points(const TriangleMesh& mesh,
       next = v;
     }
   }
-  geodesic::FastMarching::Scratch scratch;
+  FastMarching::Scratch scratch;
   while (static_cast<Index>(samples.size()) < count) {
     samples.push_back(next);
     distances.lower(next, nearest, scratch);
@@ -37,14 +36,14 @@ std::vector<Index> farthest_points(const TriangleMesh& mesh,
   return samples;
 }
 
-Eigen::MatrixXd sample_distances(const TriangleMesh& mesh, const geodesic::FastMarching& distances,
+Eigen::MatrixXd sample_distances(const TriangleMesh& mesh, const FastMarching& distances,
                                  std::span<const Index> samples, Executor& executor,
                                  const ProgressCallback& progress) {
   const auto n = static_cast<Eigen::Index>(samples.size());
   Eigen::MatrixXd d(n, n);
   struct Worker {
     std::vector<double> from;
-    geodesic::FastMarching::Scratch scratch;
+    FastMarching::Scratch scratch;
   };
   std::vector<Worker> workers(static_cast<std::size_t>(executor.threads()));
   // Reported between blocks, from this thread.
@@ -74,4 +73,4 @@ Eigen::MatrixXd sample_distances(const TriangleMesh& mesh, const geodesic::FastM
   return d;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

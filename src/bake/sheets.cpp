@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Points of the surface are far from each other where the way along its edges is longer than this
@@ -25,7 +25,7 @@ std::uint64_t pair_key(Index a, Index b) {
   return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
 }
 
-std::vector<Foot> find_feet(const Shell& shell, const Surface& surface, Executor& executor) {
+std::vector<Foot> find_feet(const Shell& shell, const UnitSurface& surface, Executor& executor) {
   const TriangleMesh& mesh = surface.mesh();
   std::vector<Foot> feet(shell.positions.size());
   executor.for_chunks(feet.size(), kSheetChunk, [&](std::size_t begin, std::size_t end, int) {
@@ -114,7 +114,7 @@ bool share_a_corner(const Foot& a, const Foot& b) {
 
 // Edges of the tetrahedra whose ends lie over parts of the surface that are far from each other;
 // sorted keys, the lower vertex first.
-std::vector<std::uint64_t> far_edges(const Shell& shell, const Surface& surface,
+std::vector<std::uint64_t> far_edges(const Shell& shell, const UnitSurface& surface,
                                      Executor& executor) {
   const std::vector<Foot> feet = find_feet(shell, surface, executor);
   std::vector<std::uint64_t> edges;
@@ -206,7 +206,7 @@ class Views {
 
 }  // namespace
 
-void separate_sheets(Shell& shell, const Surface& surface, Executor& executor) {
+void separate_sheets(Shell& shell, const UnitSurface& surface, Executor& executor) {
   const std::vector<std::uint64_t> far = far_edges(shell, surface, executor);
   if (far.empty()) return;
   std::vector<bool> has_far(shell.positions.size(), false);
@@ -272,4 +272,4 @@ void separate_sheets(Shell& shell, const Surface& surface, Executor& executor) {
   shell.overlapping_tets = static_cast<Index>(copies.size());
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

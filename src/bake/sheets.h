@@ -1,11 +1,11 @@
 #pragma once
 
-#include <mimicry/bake/shell.h>
 #include <mimicry/base/parallel.h>
 
+#include "bake/shell.h"
 #include "bake/unit_mesh.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 
 /// Takes apart what the shell joins although the surface does not: where two parts of the surface
 /// are close in space and far apart on the surface (fingers, the two sides of a plate), tetrahedra
@@ -15,6 +15,6 @@ namespace mimicry::bake {
 /// tetrahedra, `shell.overlapping_tets` of them, their corners the last vertices. Where the parts
 /// come together (at the bottom of a fold, at the rim of a plate) the cut ends in corners that all
 /// share. The same bits whatever the number of threads.
-void separate_sheets(Shell& shell, const Surface& surface, Executor& executor);
+void separate_sheets(Shell& shell, const UnitSurface& surface, Executor& executor);
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,3 +1,5 @@
+#include "bake/shell.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/bake/shell.h>
 #include <mimicry/base/error.h>
 
 #include "bake/octree.h"
@@ -13,7 +14,7 @@
 #include "bake/sheets.h"
 #include "bake/unit_mesh.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 // Keeps the tetrahedra that reach into the shell, and the vertices that they use.
@@ -91,7 +92,7 @@ struct SelfCrossings {
   Index faces = 0;
 };
 
-SelfCrossings self_crossings(const Surface& surface, double most, Executor& executor,
+SelfCrossings self_crossings(const UnitSurface& surface, double most, Executor& executor,
                              const ProgressCallback& progress) {
   const TriangleMesh& mesh = surface.mesh();
   std::vector<std::array<Index, 2>> edges;
@@ -133,7 +134,7 @@ SelfCrossings self_crossings(const Surface& surface, double most, Executor& exec
 
 // The octree's nodes that stand clear of the surface, as fine as the surface's triangles where that
 // is not too many.
-std::vector<OctreeNode> nodes_around(const Surface& surface, double offset, double half_side,
+std::vector<OctreeNode> nodes_around(const UnitSurface& surface, double offset, double half_side,
                                      double most, Executor& executor,
                                      const ProgressCallback& progress) {
   const TriangleMesh& mesh = surface.mesh();
@@ -181,7 +182,7 @@ bool stands(const Shell& shell, const TriangleMesh& mesh) {
 Shell shell_of(const TriangleMesh& mesh, const ShellOptions& options, double most_nodes,
                Executor& executor, const ProgressCallback& progress) {
   const double half_side = grid_half_side(options.offset);
-  const Surface surface(mesh);
+  const UnitSurface surface(mesh);
   const std::vector<OctreeNode> nodes =
       nodes_around(surface, options.offset, half_side, most_nodes, executor, progress);
   report(progress, "shell", 0.4);
@@ -239,7 +240,7 @@ Shell make_lattice_shell(const TriangleMesh& mesh, const ShellOptions& options, 
                          const ProgressCallback& progress) {
   report(progress, "lattice", 0.0);
   const double half_side = grid_half_side(options.offset);
-  const Surface surface(mesh);
+  const UnitSurface surface(mesh);
   const std::vector<double> sizes(at(mesh.vertex_count()), 0.0);
   Grading grading;
   grading.offset = options.offset;
@@ -323,7 +324,8 @@ Shell make_some_shell(const TriangleMesh& mesh, const ShellOptions& options, Exe
   // So many crossings cannot be made to stand in the tetrahedra: each brings points that take
   // others apart, and the attempt grows without end.
   const double most_crossings = 100.0 + 0.5 * mesh.face_count();
-  const SelfCrossings crossings = self_crossings(Surface(mesh), most_crossings, executor, progress);
+  const SelfCrossings crossings =
+      self_crossings(UnitSurface(mesh), most_crossings, executor, progress);
   if (crossings.count > most_crossings) {
     Shell lattice = make_lattice_shell(mesh, options, executor, progress);
     lattice.crossing_faces = crossings.faces;
@@ -340,4 +342,4 @@ Shell make_some_shell(const TriangleMesh& mesh, const ShellOptions& options, Exe
   return lattice;
 }
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

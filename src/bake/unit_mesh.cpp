@@ -9,7 +9,7 @@
 
 #include <mimicry/base/error.h>
 
-namespace mimicry::bake {
+namespace mimicry {
 
 GridPoint to_grid(const Vec3& p, double half_side) {
   GridPoint g;
@@ -91,21 +91,21 @@ UnitMesh make_unit_mesh(const TriangleMesh& target, double half_side) {
     if (k == 0 || keyed[k].first != keyed[k - 1].first) kept.push_back(keyed[k].second);
   std::sort(kept.begin(), kept.end());
   std::vector<Face> faces;
-  bool has_area = false;
+  bool any_area = false;
   for (const Index f : kept) {
     Face& face = faces.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
       face[k] = unit.joined[static_cast<std::size_t>(target.face(f)[k])];
-    has_area = has_area || spatial::has_area({positions[static_cast<std::size_t>(face[0])],
-                                              positions[static_cast<std::size_t>(face[1])],
-                                              positions[static_cast<std::size_t>(face[2])]});
+    any_area = any_area || has_area({positions[static_cast<std::size_t>(face[0])],
+                                     positions[static_cast<std::size_t>(face[1])],
+                                     positions[static_cast<std::size_t>(face[2])]});
   }
-  if (!has_area) throw nothing();
+  if (!any_area) throw nothing();
   unit.mesh = TriangleMesh(std::move(positions), std::move(faces));
   return unit;
 }
 
-Surface::Surface(const TriangleMesh& mesh)
+UnitSurface::UnitSurface(const TriangleMesh& mesh)
     : mesh_(mesh), bvh_(mesh.face_count(), [this](Index f) { return triangle(f); }) {}
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

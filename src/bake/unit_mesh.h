@@ -2,12 +2,13 @@
 
 #include <vector>
 
-#include <mimicry/bake/delaunay.h>
 #include <mimicry/mesh/triangle_mesh.h>
-#include <mimicry/spatial/bvh.h>
-#include <mimicry/spatial/surface_search.h>
 
-namespace mimicry::bake {
+#include "bake/delaunay.h"
+#include "spatial/bvh.h"
+#include "spatial/surface_search.h"
+
+namespace mimicry {
 
 /// The target as the bake works on it: centred, with a diagonal of 1, vertices that fall on one
 /// point of the grid joined, repeated faces and faces with two equal corners dropped.
@@ -35,22 +36,21 @@ GridPoint to_grid(const Vec3& p, double half_side);
 UnitMesh make_unit_mesh(const TriangleMesh& target, double half_side);
 
 /// Closest points and edge crossings of the unit mesh.
-class Surface {
+class UnitSurface {
  public:
-  explicit Surface(const TriangleMesh& mesh);
+  explicit UnitSurface(const TriangleMesh& mesh);
   const TriangleMesh& mesh() const { return mesh_; }
-  spatial::NearestTriangle nearest(const Vec3& p, Index hint) const {
-    return spatial::nearest_triangle(bvh_, p, kInfinity, hint,
-                                     [this](Index f) { return triangle(f); });
+  NearestTriangle nearest(const Vec3& p, Index hint) const {
+    return nearest_triangle(bvh_, p, kInfinity, hint, [this](Index f) { return triangle(f); });
   }
   /// visit(face, t, bary) for each face that the segment meets at from + t (to - from).
   template <class Visit>
   void crossings(const Vec3& from, const Vec3& to, Visit&& visit) const {
     const double length = (to - from).norm();
     if (!(length > 0.0)) return;
-    const spatial::Ray ray(from, (to - from) / length);
+    const Ray ray(from, (to - from) / length);
     bvh_.along(ray.origin(), ray.direction(), length,
-               [&](Index face, const spatial::Triangle& candidate, double bound) {
+               [&](Index face, const Triangle& candidate, double bound) {
                  const auto hit = ray.hit(candidate);
                  if (hit && hit->t <= length) visit(face, hit->t / length, hit->bary);
                  return bound;
@@ -58,11 +58,11 @@ class Surface {
   }
 
  private:
-  spatial::Triangle triangle(Index f) const {
+  Triangle triangle(Index f) const {
     return {mesh_.corner(f, 0), mesh_.corner(f, 1), mesh_.corner(f, 2)};
   }
   const TriangleMesh& mesh_;
-  spatial::Bvh<3, spatial::Triangle> bvh_;
+  Bvh<3, Triangle> bvh_;
 };
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,4 +1,4 @@
-#include <mimicry/base/float_traps.h>
+#include "base/float_traps.h"
 
 // Before the test below: a header of the C library is what defines __GLIBC__.
 #include <cfenv>

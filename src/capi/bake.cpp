@@ -7,7 +7,7 @@ using namespace mimicry;
 using namespace mimicry::capi;
 
 mimicry_bake_options mimicry_default_bake_options(void) {
-  const bake::BakeOptions defaults;
+  const BakeOptions defaults;
   return {defaults.dimension, defaults.samples, defaults.offset, 1, 0};
 }
 
@@ -22,7 +22,7 @@ mimicry_status mimicry_bake(const mimicry_mesh* mesh, const mimicry_bake_options
     if (o.threads > kMostThreads)
       throw Error(ErrorKind::invalid_input, std::to_string(o.threads) + " threads; at most " +
                                                 std::to_string(kMostThreads) + " are possible");
-    return mimicry_bytes{io::write_embedding(bake::bake(
+    return mimicry_bytes{write_embedding(mimicry::bake(
         mesh->mesh, {o.dimension, o.samples, o.offset}, o.threads, to_callback(progress, user)))};
   });
 }

@@ -2,9 +2,9 @@
 #include <cstddef>
 
 #include <mimicry/curve/edit.h>
-#include <mimicry/io/tube_mesh.h>
 
 #include "capi/handles.h"
+#include "io/tube_mesh.h"
 
 using namespace mimicry;
 using namespace mimicry::capi;
@@ -33,16 +33,15 @@ template <class Edit>
 mimicry_status edited(const mimicry_curve* curve, mimicry_curve** out, Edit&& edit) {
   return made(out, [&] {
     require(curve, "curve");
-    io::CurveRecord record = curve->record;
+    CurveRecord record = curve->record;
     record.curve = edit(record.curve, *curve->target);
     if (record.radii.size() != record.curve.points.size()) record.radii.clear();
     return make_curve(curve->target, std::move(record));
   });
 }
 
-void append_tube(mimicry_tube& tube, const std::vector<Vec3>& points,
-                 const io::TubeOptions& options) {
-  const io::TubeMesh part = io::tube_mesh(points, options);
+void append_tube(mimicry_tube& tube, const std::vector<Vec3>& points, const TubeOptions& options) {
+  const TubeMesh part = tube_mesh(points, options);
   const auto first = static_cast<uint32_t>(tube.positions.size() / 3);
   for (const Vec3& x : part.mesh.positions())
     for (int k = 0; k < 3; ++k) tube.positions.push_back(static_cast<float>(x[k]));
@@ -68,10 +67,10 @@ std::vector<std::vector<Vec3>> raised_polylines(const mimicry_curve& curve, doub
 
 namespace mimicry::capi {
 
-void append_ink(std::vector<mimicry_ink>& ink, const curve::ProjectedCurve& curve,
-                std::size_t point, const spatial::Target& target) {
-  const curve::CurvePoint& p = curve.points[point];
-  const bool starts = point == 0 || curve.pieces[point - 1].kind == curve::PieceKind::gap;
+void append_ink(std::vector<mimicry_ink>& ink, const ProjectedCurve& curve, std::size_t point,
+                const Target& target) {
+  const CurvePoint& p = curve.points[point];
+  const bool starts = point == 0 || curve.pieces[point - 1].kind == PieceKind::gap;
   if (!starts)
     for (const Crossing& c : curve.piece_crossings(point - 1))
       ink.push_back(
@@ -79,7 +78,7 @@ void append_ink(std::vector<mimicry_ink>& ink, const curve::ProjectedCurve& curv
   ink.push_back(ink_vertex(p.position, p.normal, p.frame, starts));
 }
 
-mimicry_curve make_curve(std::shared_ptr<const spatial::Target> target, io::CurveRecord record) {
+mimicry_curve make_curve(std::shared_ptr<const Target> target, CurveRecord record) {
   mimicry_curve made{std::move(target), std::move(record), {}};
   for (std::size_t i = 0; i < made.record.curve.points.size(); ++i)
     append_ink(made.ink, made.record.curve, i, *made.target);
@@ -87,6 +86,13 @@ mimicry_curve make_curve(std::shared_ptr<const spatial::Target> target, io::Curv
 }
 
 }  // namespace mimicry::capi
+
+mimicry_status mimicry_curve_follow(const mimicry_curve* curve, mimicry_curve** out) {
+  return edited(curve, out, [](ProjectedCurve moved, const Target& target) {
+    follow(moved, target.mesh(), target.vertex_normals());
+    return moved;
+  });
+}
 
 void mimicry_curve_destroy(mimicry_curve* curve) {
   delete curve;
@@ -104,7 +110,7 @@ mimicry_status mimicry_curve_point_at(const mimicry_curve* curve, size_t number,
     if (number >= points.size())
       throw Error(ErrorKind::invalid_input, "point " + std::to_string(number) + " of a curve of " +
                                                 std::to_string(points.size()));
-    const curve::CurvePoint& p = points[number];
+    const CurvePoint& p = points[number];
     put(out->position, p.position);
     put(out->normal, p.normal);
     put(out->barycentric, source_point(curve->target->mesh(), p.surface).bary);
@@ -116,7 +122,7 @@ mimicry_status mimicry_curve_point_at(const mimicry_curve* curve, size_t number,
 }
 
 double mimicry_curve_length(const mimicry_curve* curve) {
-  return curve ? curve::length(curve->record.curve) : 0.0;
+  return curve ? length(curve->record.curve) : 0.0;
 }
 int32_t mimicry_curve_is_closed(const mimicry_curve* curve) {
   return curve && curve->record.curve.closed;
@@ -174,8 +180,8 @@ mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, siz
                                    mimicry_curve** out) {
   return made(out, [&] {
     require(curve, "curve");
-    io::CurveRecord record = curve->record;
-    record.curve = curve::slice(record.curve, first, end);
+    CurveRecord record = curve->record;
+    record.curve = slice(record.curve, first, end);
     if (!record.radii.empty())
       record.radii = {curve->record.radii.begin() + static_cast<std::ptrdiff_t>(first),
                       curve->record.radii.begin() + static_cast<std::ptrdiff_t>(end)};
@@ -186,9 +192,8 @@ mimicry_status mimicry_curve_slice(const mimicry_curve* curve, size_t first, siz
 mimicry_status mimicry_curve_resample_with_progress(const mimicry_curve* curve, size_t count,
                                                     mimicry_progress progress, void* user,
                                                     mimicry_curve** out) {
-  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::resampled(c, t.mesh(), t.half_edges(), t.vertex_normals(), count,
-                            to_callback(progress, user));
+  return edited(curve, out, [&](const ProjectedCurve& c, const Target& t) {
+    return resampled(c, t.surface(), count, to_callback(progress, user));
   });
 }
 
@@ -200,9 +205,8 @@ mimicry_status mimicry_curve_resample(const mimicry_curve* curve, size_t count,
 mimicry_status mimicry_curve_smooth_with_progress(const mimicry_curve* curve, double strength,
                                                   int32_t iterations, mimicry_progress progress,
                                                   void* user, mimicry_curve** out) {
-  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::smooth(c, t.mesh(), t.half_edges(), t.vertex_normals(), {strength, iterations},
-                         to_callback(progress, user));
+  return edited(curve, out, [&](const ProjectedCurve& c, const Target& t) {
+    return smooth(c, t.surface(), {strength, iterations}, to_callback(progress, user));
   });
 }
 
@@ -214,8 +218,8 @@ mimicry_status mimicry_curve_smooth(const mimicry_curve* curve, double strength,
 mimicry_status mimicry_curve_simplify_with_progress(const mimicry_curve* curve, double tolerance,
                                                     mimicry_progress progress, void* user,
                                                     mimicry_curve** out) {
-  return edited(curve, out, [&](const curve::ProjectedCurve& c, const spatial::Target& t) {
-    return curve::simplify(c, t.mesh(), t.half_edges(), tolerance, to_callback(progress, user));
+  return edited(curve, out, [&](const ProjectedCurve& c, const Target& t) {
+    return simplify(c, t.surface(), tolerance, to_callback(progress, user));
   });
 }
 
@@ -225,8 +229,8 @@ mimicry_status mimicry_curve_simplify(const mimicry_curve* curve, double toleran
 }
 
 mimicry_status mimicry_curve_close(const mimicry_curve* curve, mimicry_curve** out) {
-  return edited(curve, out, [&](curve::ProjectedCurve c, const spatial::Target& t) {
-    if (!c.closed && !curve::close(c, t.mesh(), t.half_edges()).closed)
+  return edited(curve, out, [&](ProjectedCurve c, const Target& t) {
+    if (!c.closed && !close(c, t.surface()).closed)
       throw Error(ErrorKind::invalid_input,
                   "the curve cannot be closed: it has fewer than two points, or the surface does "
                   "not join its ends");
@@ -240,12 +244,11 @@ mimicry_status mimicry_curve_tube(const mimicry_curve* curve, double radius, int
     require(curve, "curve");
     mimicry_tube tube;
     std::vector<std::vector<double>> radii;
-    if (!curve->record.radii.empty())
-      radii = io::polyline_radii(curve->record, curve->target->mesh());
+    if (!curve->record.radii.empty()) radii = polyline_radii(curve->record, curve->target->mesh());
     const auto parts = raised_polylines(*curve, lift);
     for (std::size_t part = 0; part < parts.size(); ++part) {
       // A closed curve's last point is its first again.
-      io::TubeOptions options{radius, sides, curve->record.curve.closed && parts.size() == 1};
+      TubeOptions options{radius, sides, curve->record.curve.closed && parts.size() == 1};
       std::vector<Vec3> points = parts[part];
       if (!radii.empty()) options.radii = radii[part];
       if (options.closed && points.size() > 1) {

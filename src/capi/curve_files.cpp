@@ -2,8 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include <mimicry/io/curves_glb.h>
-#include <mimicry/io/curves_ply.h>
+#include <mimicry/io/curves.h>
 
 #include "capi/handles.h"
 
@@ -11,44 +10,44 @@ using namespace mimicry;
 using namespace mimicry::capi;
 
 struct mimicry_curve_list {
-  std::shared_ptr<const spatial::Target> target;
-  std::vector<io::CurveRecord> records;
+  std::shared_ptr<const Target> target;
+  std::vector<CurveRecord> records;
 };
 
 namespace {
 
 using Color = std::array<unsigned char, 3>;
 
-void require_tubes(const io::CurveSet& set, double radius) {
+void require_tubes(const CurveSet& set, double radius) {
   const bool all_have = std::all_of(set.curves.begin(), set.curves.end(),
-                                    [](const io::CurveRecord& r) { return !r.radii.empty(); });
+                                    [](const CurveRecord& r) { return !r.radii.empty(); });
   if (!all_have && (!std::isfinite(radius) || radius <= 0.0))
     throw Error(ErrorKind::invalid_input, "the tubes' radius is not above 0");
 }
 
-std::string file_bytes(mimicry_curve_format format, const io::CurveSet& set,
-                       const TriangleMesh& mesh, const std::vector<Color>& colors, double radius) {
+std::string file_bytes(mimicry_curve_format format, const CurveSet& set, const TriangleMesh& mesh,
+                       const std::vector<Color>& colors, double radius) {
   switch (format) {
     case MIMICRY_CURVES_JSON:
-      return io::write_curves_json(set, mesh);
+      return write_curves_json(set, mesh);
     case MIMICRY_CURVES_OBJ:
-      return io::write_curves_obj(set, mesh);
+      return write_curves_obj(set, mesh);
     case MIMICRY_CURVES_CSV:
-      return io::write_curves_csv(set, mesh);
+      return write_curves_csv(set, mesh);
     case MIMICRY_CURVES_PLY:
       require_tubes(set, radius);
-      return io::write_curves_ply(set, mesh, colors, radius);
+      return write_curves_ply(set, mesh, colors, radius);
     case MIMICRY_CURVES_GLB:
       require_tubes(set, radius);
-      return io::write_curves_glb(set, mesh, colors, radius);
+      return write_curves_glb(set, mesh, colors, radius);
     case MIMICRY_CURVES_OBJ_POLYLINES:
-      return io::write_curves_obj(set, mesh, io::ObjLines::polylines);
+      return write_curves_obj(set, mesh, ObjLines::polylines);
     case MIMICRY_CURVES_PLY_LINES:
-      return io::write_curves_ply_lines(set, mesh, colors);
+      return write_curves_ply_lines(set, mesh, colors);
     case MIMICRY_CURVES_GLB_LINES:
-      return io::write_curves_glb_lines(set, mesh, colors);
+      return write_curves_glb_lines(set, mesh, colors);
     case MIMICRY_CURVES_PACKED:
-      return io::write_curves_packed(set, mesh);
+      return write_curves_packed(set, mesh);
   }
   throw Error(ErrorKind::invalid_input,
               "there is no curve format " + std::to_string(static_cast<int>(format)));
@@ -63,7 +62,7 @@ mimicry_status mimicry_curves_write(const mimicry_target* target, const char* ta
   return made(out, [&] {
     require(target, "target");
     if (count > 0) require(curves, "curves");
-    io::CurveSet set{std::string(text(target_name, "target_name")), {}};
+    CurveSet set{std::string(text(target_name, "target_name")), {}};
     std::vector<Color> chosen(count, Color{});
     for (size_t i = 0; i < count; ++i) {
       require(curves[i], "a curve");
@@ -82,9 +81,8 @@ mimicry_status mimicry_curves_read(const mimicry_target* target, const void* dat
   return made(out, [&] {
     require(target, "target");
     const std::string_view bytes = content(data, size);
-    io::CurveSet set =
-        (io::is_packed_curves(bytes) ? io::read_curves_packed : io::read_curves_json)(
-            bytes, text(name, "name"), target->target->mesh());
+    CurveSet set = (is_packed_curves(bytes) ? read_curves_packed : read_curves_json)(
+        bytes, text(name, "name"), target->target->mesh());
     return mimicry_curve_list{target->target, std::move(set.curves)};
   });
 }

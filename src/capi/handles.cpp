@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "geodesic/site.h"
+
 namespace mimicry::capi {
 namespace {
 
@@ -35,11 +37,11 @@ ProgressCallback to_callback(mimicry_progress progress, void* user) {
 
 Similarity to_similarity(const mimicry_similarity* similarity) {
   require(similarity, "model_to_world");
-  stroke::Stroke placed;
+  Stroke placed;
   placed.id = "model_to_world";
   placed.model_to_world = {quaternion(similarity->rotation), vec3(similarity->translation),
                            similarity->scale};
-  stroke::require_usable(placed);
+  require_usable(placed);
   return placed.model_to_world;
 }
 
@@ -51,8 +53,8 @@ mimicry_similarity from_similarity(const Similarity& similarity) {
   return s;
 }
 
-stroke::Frame to_frame(const mimicry_frame& frame) {
-  stroke::Frame f;
+Frame to_frame(const mimicry_frame& frame) {
+  Frame f;
   f.time_s = frame.time_s;
   f.head = {vec3(frame.head_position), quaternion(frame.head_orientation)};
   f.controller = {vec3(frame.controller_position), quaternion(frame.controller_orientation)};
@@ -61,7 +63,7 @@ stroke::Frame to_frame(const mimicry_frame& frame) {
   return f;
 }
 
-mimicry_frame from_frame(const stroke::Frame& frame) {
+mimicry_frame from_frame(const Frame& frame) {
   mimicry_frame f{};
   f.time_s = frame.time_s;
   capi::put(f.head_position, frame.head.position);
@@ -71,6 +73,55 @@ mimicry_frame from_frame(const stroke::Frame& frame) {
   f.trigger = frame.trigger;
   f.pressure = frame.pressure.value_or(-1.0);
   return f;
+}
+
+mimicry_surface_point from_point(const Target& target, const SurfacePoint& p, const Vec3& position,
+                                 double distance) {
+  mimicry_surface_point out{};
+  put(out.position, position);
+  put(out.normal, target.normal(p));
+  put(out.barycentric, source_point(target.mesh(), p).bary);
+  out.distance = distance;
+  out.face = p.face;
+  return out;
+}
+
+SurfacePoint to_point(const Target& target, const mimicry_surface_point& point,
+                      const std::string& what) {
+  const SurfacePoint p{point.face, vec3(point.barycentric)};
+  check_surface_point(target.mesh(), p, what);
+  if (repeats_corner(target.mesh().face(p.face)))
+    throw Error(ErrorKind::invalid_input,
+                what + ": face " + std::to_string(p.face) +
+                    " was left out of the surface (mimicry_target_notes); choose another face");
+  return source_point(target.mesh(), normalised(p));
+}
+
+std::vector<SurfacePoint> to_points(const Target& target, const mimicry_surface_point* points,
+                                    std::size_t count, const char* what) {
+  if (count > 0) require(points, what);
+  std::vector<SurfacePoint> result;
+  result.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(to_point(target, points[i], std::string(what) + ' ' + std::to_string(i)));
+  return result;
+}
+
+Stroke to_stroke(const mimicry_similarity* model_to_world, const mimicry_frame* frames,
+                 std::size_t count) {
+  if (count > 0) require(frames, "frames");
+  Stroke stroke;
+  stroke.model_to_world = to_similarity(model_to_world);
+  stroke.frames.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) stroke.frames.push_back(to_frame(frames[i]));
+  require_usable(stroke);
+  return stroke;
+}
+
+void require_positive(double value, const char* what) {
+  if (!std::isfinite(value) || value <= 0.0)
+    throw Error(ErrorKind::invalid_input,
+                std::string(what) + " is " + std::to_string(value) + "; give a number above 0");
 }
 
 }  // namespace mimicry::capi

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -29,30 +30,46 @@ struct mimicry_mesh {
 
 // What a target shows of itself, by the vertices of the caller's mesh.
 struct mimicry_target_view {
+  std::string name;  // of the mesh
   std::string notes;
   std::vector<int32_t> surface_sources, surface_vertices;
-  std::vector<mimicry::Vec3> normals;
+  std::vector<mimicry::Vec3> normals;  // empty: the target's own
+  std::uint64_t moves = 0;             // of its vertices
+  std::atomic<bool> is_baked = false;  // by some handle: its vertices stay
 };
 
 struct mimicry_target {
-  std::shared_ptr<const mimicry::spatial::Target> target;
-  std::shared_ptr<const mimicry_target_view> view;
-  std::shared_ptr<const mimicry::embedding::SmoothProjector> projector;  // may be null
+  std::shared_ptr<mimicry::Target> target;
+  std::shared_ptr<mimicry_target_view> view;
+  std::shared_ptr<const mimicry::SmoothProjector> projector;  // may be null
+};
+
+struct mimicry_strokes {
+  std::vector<mimicry::Stroke> strokes;
+  std::vector<std::string> left_out;  // when it was read
+
+  const mimicry::Stroke& at(std::size_t number) const {
+    if (number >= strokes.size())
+      throw mimicry::Error(
+          mimicry::ErrorKind::invalid_input,
+          "stroke " + std::to_string(number) + " of " + std::to_string(strokes.size()));
+    return strokes[number];
+  }
 };
 
 struct mimicry_session {
   mimicry_target canvas;
-  const mimicry::technique::TechniqueInfo* technique = nullptr;
-  mimicry::session::SessionOptions options;
+  const mimicry::TechniqueInfo* technique = nullptr;
+  mimicry::SessionOptions options;
   bool options_changed = false;
-  std::unique_ptr<mimicry::session::StrokeSession> session;
+  std::unique_ptr<mimicry::StrokeSession> session;
   mimicry::Similarity model_to_world;
   std::vector<mimicry_ink> ink;
 };
 
 struct mimicry_curve {
-  std::shared_ptr<const mimicry::spatial::Target> target;
-  mimicry::io::CurveRecord record;
+  std::shared_ptr<const mimicry::Target> target;
+  mimicry::CurveRecord record;
   std::vector<mimicry_ink> ink;
 };
 
@@ -122,8 +139,8 @@ ProgressCallback to_callback(mimicry_progress progress, void* user);
 /// Throws where it is not finite, no unit rotation, or the scale is not positive.
 Similarity to_similarity(const mimicry_similarity* similarity);
 mimicry_similarity from_similarity(const Similarity& similarity);
-stroke::Frame to_frame(const mimicry_frame& frame);
-mimicry_frame from_frame(const stroke::Frame& frame);
+Frame to_frame(const mimicry_frame& frame);
+mimicry_frame from_frame(const Frame& frame);
 
 inline Vec3 vec3(const double* x) {
   return {x[0], x[1], x[2]};
@@ -132,10 +149,41 @@ inline void put(double* to, const Vec3& x) {
   for (int k = 0; k < 3; ++k) to[k] = x[k];
 }
 
+/// A point of the surface in the caller's words, its barycentrics of the mesh's own corners.
+mimicry_surface_point from_point(const Target& target, const SurfacePoint& p, const Vec3& position,
+                                 double distance);
+/// The same of what a query found or did not find.
+template <class Found>
+mimicry_surface_point from_found(const Target& target, const Found& found) {
+  if (found) return from_point(target, found->surface, found->position, found->distance);
+  mimicry_surface_point none{};
+  none.face = kNone;
+  return none;
+}
+/// A caller's point on the surface. Throws Error(invalid_input) naming `what` for one that is not.
+SurfacePoint to_point(const Target& target, const mimicry_surface_point& point,
+                      const std::string& what);
+/// Several; `what` and the number stand in messages.
+std::vector<SurfacePoint> to_points(const Target& target, const mimicry_surface_point* points,
+                                    std::size_t count, const char* what);
+/// A recorded stroke, whose frames must be usable.
+Stroke to_stroke(const mimicry_similarity* model_to_world, const mimicry_frame* frames,
+                 std::size_t count);
+/// Throws Error(invalid_input) where it is not above 0 and finite; `what` names it.
+void require_positive(double value, const char* what);
+
+/// What a technique looks at.
+inline Canvas canvas_of(const mimicry_target& target) {
+  return {*target.target, 1.0, target.projector ? *target.projector : SmoothProjector()};
+}
+/// The technique of this name. Throws Error(invalid_input) where there is none, or where it needs a
+/// bake that the target has not.
+const TechniqueInfo& usable_technique(const mimicry_target& target, const char* name);
+
 /// Appends the vertices of a curve's point and of the piece that leads to it.
-void append_ink(std::vector<mimicry_ink>& ink, const curve::ProjectedCurve& curve,
-                std::size_t point, const spatial::Target& target);
+void append_ink(std::vector<mimicry_ink>& ink, const ProjectedCurve& curve, std::size_t point,
+                const Target& target);
 /// A curve with its ink.
-mimicry_curve make_curve(std::shared_ptr<const spatial::Target> target, io::CurveRecord record);
+mimicry_curve make_curve(std::shared_ptr<const Target> target, CurveRecord record);
 
 }  // namespace mimicry::capi

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include <mimicry/io/mesh_files.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/connect.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/mesh/validation.h>
@@ -61,8 +61,7 @@ mimicry_status mimicry_mesh_read(const void* data, size_t size, const char* name
                                  mimicry_mesh** out) {
   return made(out, [&] {
     const std::string_view named = text(name, "name");
-    return shown(std::string(named),
-                 io::read_mesh(content(data, size), io::mesh_format_of(named), named));
+    return shown(std::string(named), read_mesh(content(data, size), mesh_format_of(named), named));
   });
 }
 
@@ -70,11 +69,11 @@ mimicry_status mimicry_mesh_read_files(const mimicry_file* files, size_t count, 
                                        mimicry_mesh** out) {
   return made(out, [&] {
     if (count > 0) require(files, "files");
-    std::vector<io::NamedBytes> named;
+    std::vector<NamedBytes> named;
     for (size_t k = 0; k < count; ++k)
       named.push_back({text(files[k].name, "name"), content(files[k].data, files[k].size)});
-    const size_t which = io::mesh_among(named, mesh ? mesh : "");
-    return shown(std::string(named[which].name), io::read_mesh_files(named, which));
+    const size_t which = mesh_among(named, mesh ? mesh : "");
+    return shown(std::string(named[which].name), read_mesh_files(named, which));
   });
 }
 

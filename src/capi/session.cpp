@@ -4,7 +4,6 @@
 
 using namespace mimicry;
 using namespace mimicry::capi;
-using session::StrokeSession;
 
 namespace {
 
@@ -12,7 +11,7 @@ namespace {
 constexpr std::size_t kInkPerFrame = 4;
 
 void renew(mimicry_session& s) {
-  const technique::Canvas canvas{s.canvas.target.get(), 1.0, s.canvas.projector.get()};
+  const Canvas canvas = canvas_of(s.canvas);
   s.session = std::make_unique<StrokeSession>(canvas, *s.technique, s.options);
   s.options_changed = false;
 }
@@ -24,21 +23,21 @@ void begin(mimicry_session& s, const mimicry_similarity* model_to_world) {
   s.ink.clear();
 }
 
-session::FrameStatus add(mimicry_session& s, const stroke::Frame& frame) {
-  const session::FrameStatus status = s.session->add(frame);
-  const curve::ProjectedCurve& curve = s.session->curve();
-  if (status == session::FrameStatus::inked)
+FrameStatus add(mimicry_session& s, const Frame& frame) {
+  const FrameStatus status = s.session->add(frame);
+  const ProjectedCurve& curve = s.session->curve();
+  if (status == FrameStatus::inked)
     append_ink(s.ink, curve, curve.points.size() - 1, *s.canvas.target);
   return status;
 }
 
 mimicry_curve curve_of(const mimicry_session& s) {
-  io::CurveRecord record;
+  CurveRecord record;
   record.technique = std::string(s.technique->name);
-  for (const technique::OptionInfo& o : s.technique->options) {
-    if (!technique::is_listed(o, s.options.technique)) continue;
-    const auto values = o.get(s.options.technique);
-    record.options[std::string(o.name)] = {values.begin(), values.end()};
+  for (const OptionInfo& o : s.technique->options) {
+    if (!is_listed(*s.technique, o, s.options.technique)) continue;
+    const auto values = option_value(*s.technique, o, s.options.technique);
+    record.options[o.name] = {values.begin(), values.end()};
   }
   record.model_to_world = s.model_to_world;
   record.curve = s.session->curve();
@@ -47,18 +46,24 @@ mimicry_curve curve_of(const mimicry_session& s) {
 
 }  // namespace
 
+const TechniqueInfo& mimicry::capi::usable_technique(const mimicry_target& target,
+                                                     const char* name) {
+  const TechniqueInfo& row = find_technique(text(name, "technique"));
+  if (row.needs_bake && !target.projector)
+    throw Error(ErrorKind::invalid_input,
+                row.name +
+                    " needs the target's bake; bake it (mimicry_bake) or load its .mimicry file "
+                    "(mimicry_target_with_embedding)");
+  return row;
+}
+
 mimicry_status mimicry_session_create(const mimicry_target* target, const char* technique,
                                       mimicry_session** out) {
   return made(out, [&] {
     require(target, "target");
     mimicry_session s{};
     s.canvas = *target;
-    s.technique = &technique::find_technique(text(technique, "technique"));
-    if (s.technique->needs_bake && !target->projector)
-      throw Error(ErrorKind::invalid_input,
-                  std::string(s.technique->name) +
-                      " needs the target's bake; bake it (mimicry_bake) or load its .mimicry file "
-                      "(mimicry_target_with_embedding)");
+    s.technique = &usable_technique(*target, technique);
     s.ink.reserve(kInkPerFrame * s.options.expected_frames);
     renew(s);
     return s;
@@ -74,8 +79,8 @@ mimicry_status mimicry_session_set_option(mimicry_session* session, const char* 
   return guarded([&] {
     require(session, "session");
     require(values, "values");
-    technique::set_option(*session->technique, session->options.technique, text(name, "name"),
-                          {values, count});
+    set_option(*session->technique, session->options.technique, text(name, "name"),
+               {values, count});
     session->options_changed = true;
   });
 }
@@ -94,7 +99,7 @@ mimicry_status mimicry_session_set_minimum_motion(mimicry_session* session, doub
 mimicry_status mimicry_session_set_split_at_misses(mimicry_session* session, int32_t split) {
   return guarded([&] {
     require(session, "session");
-    session->options.misses = split ? session::MissPolicy::split : session::MissPolicy::connect;
+    session->options.misses = split ? MissPolicy::split : MissPolicy::connect;
     session->options_changed = true;
   });
 }
@@ -144,13 +149,9 @@ mimicry_status mimicry_session_project(mimicry_session* session,
                                        mimicry_curve** out) {
   return made(out, [&] {
     require(session, "session");
-    if (count > 0) require(frames, "frames");
-    stroke::Stroke stroke;
-    stroke.model_to_world = to_similarity(model_to_world);
-    for (size_t i = 0; i < count; ++i) stroke.frames.push_back(to_frame(frames[i]));
-    stroke::require_usable(stroke);
+    const Stroke stroke = to_stroke(model_to_world, frames, count);
     begin(*session, model_to_world);
-    for (const stroke::Frame& frame : stroke.frames) add(*session, frame);
+    for (const Frame& frame : stroke.frames) add(*session, frame);
     session->session->end();
     return curve_of(*session);
   });

@@ -5,18 +5,6 @@
 using namespace mimicry;
 using namespace mimicry::capi;
 
-struct mimicry_strokes {
-  std::vector<stroke::Stroke> strokes;
-  std::vector<std::string> left_out;  // when it was read
-
-  const stroke::Stroke& at(std::size_t number) const {
-    if (number >= strokes.size())
-      throw Error(ErrorKind::invalid_input,
-                  "stroke " + std::to_string(number) + " of " + std::to_string(strokes.size()));
-    return strokes[number];
-  }
-};
-
 mimicry_status mimicry_strokes_create(mimicry_strokes** out) {
   return made(out, [] { return mimicry_strokes{}; });
 }
@@ -24,7 +12,7 @@ mimicry_status mimicry_strokes_create(mimicry_strokes** out) {
 mimicry_status mimicry_strokes_read(const void* data, size_t size, const char* name,
                                     mimicry_strokes** out) {
   return made(out, [&] {
-    io::StrokesFile file = io::read_strokes(content(data, size), text(name, "name"));
+    StrokesFile file = read_strokes(content(data, size), text(name, "name"));
     return mimicry_strokes{std::move(file.strokes), std::move(file.left_out)};
   });
 }
@@ -35,13 +23,9 @@ mimicry_status mimicry_strokes_append(mimicry_strokes* strokes, const char* id,
                                       const mimicry_frame* frames, size_t count) {
   return guarded([&] {
     require(strokes, "strokes");
-    if (count > 0) require(frames, "frames");
-    stroke::Stroke s;
+    Stroke s = to_stroke(model_to_world, frames, count);
     s.id = text(id, "id");
     s.target = text(target_name, "target_name");
-    s.model_to_world = to_similarity(model_to_world);
-    for (size_t i = 0; i < count; ++i) s.frames.push_back(to_frame(frames[i]));
-    stroke::require_usable(s);
     strokes->strokes.push_back(std::move(s));
   });
 }
@@ -49,7 +33,7 @@ mimicry_status mimicry_strokes_append(mimicry_strokes* strokes, const char* id,
 mimicry_status mimicry_strokes_write(const mimicry_strokes* strokes, mimicry_bytes** out) {
   return made(out, [&] {
     require(strokes, "strokes");
-    return mimicry_bytes{io::write_strokes(strokes->strokes)};
+    return mimicry_bytes{write_strokes(strokes->strokes)};
   });
 }
 
@@ -88,7 +72,7 @@ mimicry_status mimicry_strokes_frames(const mimicry_strokes* strokes, size_t num
                                       mimicry_frame* frames) {
   return guarded([&] {
     require(strokes, "strokes");
-    const stroke::Stroke& s = strokes->at(number);
+    const Stroke& s = strokes->at(number);
     if (!s.frames.empty()) require(frames, "frames");
     for (size_t i = 0; i < s.frames.size(); ++i) frames[i] = from_frame(s.frames[i]);
   });

@@ -21,35 +21,31 @@ auto named(const std::string& name, Body&& body) {
   }
 }
 
-std::shared_ptr<const mimicry_target_view> view_of(const spatial::Target& target) {
+// Of the caller's vertices, where they are others than the surface's.
+void take_normals(const Target& target, mimicry_target_view& view) {
+  const MeshSource* source = target.mesh().source();
+  if (!source) return;
+  const std::span<const Vec3> normals = target.vertex_normals();
+  view.normals.resize(source->surface_vertex.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < view.normals.size(); ++v)
+    if (const Index s = source->surface_vertex[v]; s != kNone) view.normals[v] = normals[at(s)];
+}
+
+std::shared_ptr<mimicry_target_view> view_of(const Target& target, const std::string& name) {
   auto view = std::make_shared<mimicry_target_view>();
+  view->name = name;
   for (const std::string& sentence : target.connection().sentences())
     view->notes += (view->notes.empty() ? "" : "\n") + sentence;
-  const TriangleMesh& surface = target.mesh();
-  const std::span<const Vec3> normals = target.vertex_normals();
-  if (const MeshSource* source = surface.source()) {
+  take_normals(target, *view);
+  if (const MeshSource* source = target.mesh().source()) {
     view->surface_sources = source->vertex;
     view->surface_vertices = source->surface_vertex;
-    for (const Index v : source->surface_vertex)
-      view->normals.push_back(v == kNone ? Vec3(Vec3::Zero()) : normals[at(v)]);
   } else {
-    view->surface_sources.resize(normals.size());
+    view->surface_sources.resize(target.vertex_normals().size());
     std::iota(view->surface_sources.begin(), view->surface_sources.end(), 0);
     view->surface_vertices = view->surface_sources;
   }
   return view;
-}
-
-template <class Found>
-void put_point(mimicry_surface_point& out, const spatial::Target& target, const Found& found) {
-  out = {};
-  out.face = kNone;
-  if (!found) return;
-  put(out.position, found->position);
-  put(out.normal, target.normal(found->surface));
-  put(out.barycentric, source_point(target.mesh(), found->surface).bary);
-  out.distance = found->distance;
-  out.face = found->surface.face;
 }
 
 }  // namespace
@@ -64,9 +60,9 @@ mimicry_status mimicry_target_make(const mimicry_mesh* mesh, const mimicry_targe
     require(mesh, "mesh");
     return named(mesh->name, [&] {
       const mimicry_target_options o = options ? *options : mimicry_default_target_options();
-      auto target = std::make_shared<const spatial::Target>(
-          mesh->mesh, spatial::TargetOptions{.join = o.join != 0, .strict = o.strict != 0});
-      auto view = view_of(*target);
+      auto target = std::make_shared<Target>(
+          mesh->mesh, TargetOptions{.join = o.join != 0, .strict = o.strict != 0});
+      auto view = view_of(*target, mesh->name);
       return mimicry_target{std::move(target), std::move(view), nullptr};
     });
   });
@@ -113,7 +109,7 @@ mimicry_status mimicry_target_closest_point(const mimicry_target* target, const 
     require(y, "y");
     require(out, "out");
     const auto found = target->target->closest_point(vec3(y), upper_bound, hint);
-    put_point(*out, *target->target, found);
+    *out = from_found(*target->target, found);
   });
 }
 
@@ -125,7 +121,25 @@ mimicry_status mimicry_target_first_hit(const mimicry_target* target, const doub
     require(direction, "direction");
     require(out, "out");
     const auto found = target->target->first_hit(vec3(origin), vec3(direction));
-    put_point(*out, *target->target, found);
+    *out = from_found(*target->target, found);
+  });
+}
+
+mimicry_status mimicry_target_update_positions(mimicry_target* target, const double* positions,
+                                               size_t vertex_count) {
+  return guarded([&] {
+    require(target, "target");
+    require(positions, "positions");
+    if (target->view->is_baked)
+      throw Error(
+          ErrorKind::invalid_input,
+          "the target has been given a bake, which is of one shape; make a target of its own "
+          "for the mesh that moves");
+    // #V by 3 doubles are #V positions.
+    static_assert(sizeof(Vec3) == 3 * sizeof(double) && alignof(Vec3) == alignof(double));
+    target->target->update_positions({reinterpret_cast<const Vec3*>(positions), vertex_count});
+    take_normals(*target->target, *target->view);
+    ++target->view->moves;
   });
 }
 
@@ -137,11 +151,12 @@ mimicry_status mimicry_target_with_embedding(const mimicry_target* target, const
     return named(file, [&] {
       // The projector refers to the target: both are kept together.
       struct Pair {
-        std::shared_ptr<const spatial::Target> target;
-        embedding::SmoothProjector projector;
+        std::shared_ptr<const Target> target;
+        SmoothProjector projector;
       };
-      const std::shared_ptr<Pair> pair(new Pair{
-          target->target, {io::read_embedding(content(data, size), file), *target->target}});
+      const std::shared_ptr<Pair> pair(
+          new Pair{target->target, {read_embedding(content(data, size), file), *target->target}});
+      target->view->is_baked = true;
       return mimicry_target{target->target, target->view, {pair, &pair->projector}};
     });
   });

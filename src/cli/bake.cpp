@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/files/file.h>
-#include <mimicry/files/output_lock.h>
+#include <mimicry/assets/canvas.h>
 #include <mimicry/io/embedding_file.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/embedding_input.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "files/output_lock.h"
 
 namespace mimicry::cli {
 namespace {
@@ -21,7 +21,7 @@ struct BakeArguments {
   std::string mesh;
   std::string out;
   BakeSettings bake;
-  spatial::TargetOptions target;
+  TargetOptions target;
 };
 
 // Time of each stage, from the progress reports: the library itself looks at no clock.
@@ -45,7 +45,7 @@ class StageTimes {
 };
 
 // Whether the mesh stands in the shell's tetrahedra, and where not, why.
-std::string kind_of_shell(const embedding::BakeQuality& q) {
+std::string kind_of_shell(const BakeQuality& q) {
   if (!q.is_lattice) return "the mesh stands in it";
   std::string why = "it would take too many tetrahedra";
   if (q.missing_edges + q.pierced_faces > 0)
@@ -57,17 +57,18 @@ std::string kind_of_shell(const embedding::BakeQuality& q) {
 }
 
 void run_bake(const BakeArguments& args) {
-  const auto output_lock = files::OutputLock::of_file(args.out);
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
+  const auto output_lock = OutputLock::of_file(args.out);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   StageTimes times;
-  const Baked baked = bake_mesh(target.mesh(), args.bake, [&](const Progress& progress) {
-    times.enter(progress.stage);
-    return true;
-  });
-  const embedding::Embedding& embedding = baked.embedding;
-  files::write_file_atomically(args.out, io::write_embedding(embedding));
-  const embedding::BakeQuality& q = embedding.quality;
+  const Baked baked =
+      bake_mesh(target.mesh(), args.bake, terminal_monitor(), [&](const Progress& progress) {
+        times.enter(progress.stage);
+        return true;
+      });
+  const Embedding& embedding = baked.embedding;
+  write_file_atomically(args.out, write_embedding(embedding));
+  const BakeQuality& q = embedding.quality;
   std::printf("%s: %d vertices, %zu tetrahedra, %s\n", args.out.c_str(), embedding.vertex_count(),
               embedding.tets.size(), kind_of_shell(q).c_str());
   std::printf("  stress %s, |d/D - 1| median %s, 99 %% %s, slivers %s %%\n",

@@ -17,11 +17,10 @@
 #include <mimicry/bake/bake.h>
 #include <mimicry/base/error.h>
 #include <mimicry/io/embedding_file.h>
-#include <mimicry/io/mesh_format.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/connect.h>
 
-#include "cli/bake_cache.h"
+#include "assets/bake_cache.h"
 #include "cli/commands.h"
 
 namespace mimicry::cli {
@@ -78,20 +77,20 @@ std::string_view mesh_bytes() {
   return {static_cast<const char*>(at), size};
 }
 
-embedding::Embedding baked(const WorkerArguments& args, const BakeCache& kept, bool& is_new) {
+Embedding baked(const WorkerArguments& args, const BakeCache& kept, bool& is_new) {
   tell({{"stage", "reading"}, {"fraction", 0.0}});
-  io::MeshReadOptions limits;
+  MeshReadOptions limits;
   limits.max_faces = args.faces;
   // Kept bakes are found by the surface.
   const TriangleMesh mesh =
-      connect(io::read_mesh(mesh_bytes(), io::mesh_format_of(args.name), args.name, limits)).mesh;
-  const bake::BakeOptions options;
+      connect(read_mesh(mesh_bytes(), mesh_format_of(args.name), args.name, limits)).mesh;
+  const BakeOptions options;
   try {
     if (auto found = kept.find(mesh, options)) return *std::move(found);
-  } catch (const Error&) {  // `keep_or_throw` will say the same
+  } catch (const Error&) {  // `keep` will say the same
   }
   is_new = true;
-  return bake::bake(mesh, options, args.threads, [](const Progress& progress) {
+  return mimicry::bake(mesh, options, args.threads, [](const Progress& progress) {
     tell({{"stage", progress.stage}, {"fraction", progress.fraction}});
     return true;
   });
@@ -100,12 +99,12 @@ embedding::Embedding baked(const WorkerArguments& args, const BakeCache& kept, b
 void work(const WorkerArguments& args) {
   const BakeCache kept(args.keep, args.keep_bytes);
   bool is_new = false;
-  const embedding::Embedding made = baked(args, kept, is_new);
-  if (!write_all(kResult, io::write_embedding(made))) throw std::bad_alloc();
+  const Embedding made = baked(args, kept, is_new);
+  if (!write_all(kResult, write_embedding(made))) throw std::bad_alloc();
   tell({{"done", true}});
   if (!is_new) return;
   try {
-    kept.keep_or_throw(made);
+    kept.keep(made);
   } catch (const Error& error) {
     tell({{"note",
            std::string("a bake was sent but is not kept for the next time: ") + error.what()}});

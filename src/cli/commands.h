@@ -4,9 +4,6 @@
 
 namespace mimicry::cli {
 
-/// Accepts finite numbers from `lowest` to `highest`.
-CLI::Validator number_between(double lowest, double highest);
-
 /// What the program returns (README, "Exit codes").
 enum ExitCode : int {
   kDone = 0,

@@ -5,15 +5,18 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/csv.h>
 #include <mimicry/study/comparison.h>
 
 #include "cli/commands.h"
 #include "cli/comparison_text.h"
 #include "cli/console.h"
-#include "cli/paired_rows.h"
-#include "cli/paper_agreement.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "lab/measured_rows.h"
+#include "lab/pairing.h"
+#include "lab/paper_agreement.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {
@@ -21,14 +24,14 @@ namespace {
 struct CompareArguments {
   std::string rows;
   std::vector<std::string> methods;
-  PairingOptions pairing;
-  study::ComparisonOptions comparison;
+  lab::PairingOptions pairing;
+  ComparisonOptions comparison;
   bool pratt = false;
   bool percentile = false;
   bool json = false;
 };
 
-void print_group(const PairedGroup& group, const std::vector<study::Comparison>& comparisons,
+void print_group(const lab::PairedGroup& group, const std::vector<Comparison>& comparisons,
                  const CompareArguments& args) {
   std::printf("%s: %zu pairs", group.name.c_str(), group.pairs);
   if (group.failed > 0) std::printf(", %zu left out (rejected or filtered)", group.failed);
@@ -38,17 +41,17 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
   std::printf("\n");
   const std::string& a = args.methods[0];
   const std::string& b = args.methods[1];
-  const bool has_paper = count_agreement(a, b, group, comparisons).rows > 0;
+  const bool has_paper = lab::count_agreement(a, b, group, comparisons).rows > 0;
   std::vector<std::vector<std::string>> rows;
-  for (const study::Comparison& c : comparisons) {
+  for (const Comparison& c : comparisons) {
     rows.push_back({c.name, significant(c.a.mean), significant(c.a.standard_deviation),
                     significant(c.b.mean), significant(c.b.standard_deviation), fixed(c.test.z, 2),
                     probability(c.test.p()), probability(c.p_holm), participants_probability(c),
                     fixed(c.test.effect_r, 2), fixed(c.test.rank_biserial, 2),
                     significant(c.difference.low), significant(c.difference.high)});
     if (!has_paper) continue;
-    const auto* paper = paper_figure(a, b, group.name, c.name);
-    const auto agrees = paper != nullptr ? study::agreement(c, *paper) : study::Agreement();
+    const auto* paper = lab::published_figure(a, b, group.name, c.name);
+    const auto agrees = paper != nullptr ? agreement(c, *paper) : Agreement();
     const auto mark = [&](bool yes) { return paper == nullptr ? "" : yes ? "yes" : "no"; };
     rows.back().emplace_back(mark(agrees.means()));
     rows.back().emplace_back(mark(paper != nullptr && agrees.difference(*paper)));
@@ -78,23 +81,23 @@ void print_group(const PairedGroup& group, const std::vector<study::Comparison>&
 void run_compare(CompareArguments args) {
   if (args.methods.size() != 2 || args.methods[0] == args.methods[1])
     throw Error(ErrorKind::invalid_input, "--methods: give two, as in --methods spraycan,mimicry");
-  const std::string name = std::filesystem::path(args.rows).filename().string();
-  const io::CsvTable table = io::read_csv(files::read_file(args.rows), name);
+  const std::string name = file_name(args.rows);
+  const CsvTable table = lab::read_rows(read_file(args.rows), name, terminal_monitor());
   args.pairing.method_a = args.methods[0];
   args.pairing.method_b = args.methods[1];
-  if (args.pratt) args.comparison.test.zeros = study::ZeroDifferences::ranked;
-  if (args.percentile) args.comparison.bootstrap.kind = study::BootstrapKind::percentile;
+  if (args.pratt) args.comparison.test.zeros = ZeroDifferences::ranked;
+  if (args.percentile) args.comparison.bootstrap.kind = BootstrapKind::percentile;
   const std::string &a = args.methods[0], &b = args.methods[1];
-  const std::vector<PairedGroup> groups = pair_rows(table, args.pairing, name);
-  std::vector<std::vector<study::Comparison>> comparisons;
-  AgreementCount agreement;
-  for (const PairedGroup& group : groups) {
-    comparisons.push_back(study::compare(group.measures, args.comparison));
-    agreement += count_agreement(a, b, group, comparisons.back());
+  const std::vector<lab::PairedGroup> groups = lab::pair_rows(table, args.pairing, name);
+  std::vector<std::vector<Comparison>> comparisons;
+  lab::AgreementCount agreement;
+  for (const lab::PairedGroup& group : groups) {
+    comparisons.push_back(compare(group.measures, args.comparison));
+    agreement += lab::count_agreement(a, b, group, comparisons.back());
     if (!args.json) print_group(group, comparisons.back(), args);
   }
   if (args.json)
-    std::printf("%s\n", json_text(to_json(a, b, groups, comparisons)).c_str());
+    std::printf("%s\n", lab::comparison_json(a, b, groups, comparisons).c_str());
   else if (agreement.rows > 0)
     std::printf("Beside the paper's table: %s.\n", agreement.text().c_str());
 }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
+#include <mutex>
+#include <optional>
 
-#include <unistd.h>
+#include <mimicry/assets/canvas.h>
 
 #include "cli/interrupt.h"
+#include "cli/system.h"
 
 namespace mimicry::cli {
 
@@ -72,7 +76,7 @@ std::string fixed(double value, int digits) {
 }
 
 ProgressLine::ProgressLine(std::string what)
-    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)), terminal_(is_terminal(stderr)) {}
 
 ProgressLine::~ProgressLine() {
   if (terminal_ && last_percent_ >= 0) std::fprintf(stderr, "\r\033[K");
@@ -85,6 +89,28 @@ void ProgressLine::update(std::size_t done, std::size_t total) {
   last_percent_ = percent;
   std::fprintf(stderr, "\r%s %d %%", what_.c_str(), percent);
   std::fflush(stderr);
+}
+
+Monitor terminal_monitor() {
+  struct Line {
+    std::mutex mutex;
+    std::string work;
+    std::optional<ProgressLine> shown;
+  };
+  const auto line = std::make_shared<Line>();
+  Monitor monitor;
+  monitor.note = [](const std::string& sentence) { complain(sentence); };
+  monitor.cancelled = end_requested;
+  monitor.progress = [line](std::string_view work, double fraction) {
+    const std::lock_guard guard(line->mutex);
+    if (!line->shown || line->work != work) {
+      line->work = work;
+      line->shown.reset();  // clears the line of the work before
+      line->shown.emplace(line->work);
+    }
+    line->shown->update(static_cast<std::size_t>(100 * fraction), 100);
+  };
+  return monitor;
 }
 
 }  // namespace mimicry::cli

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
+
 namespace mimicry::cli {
 
 /// A text that may come from a file or a name, for people: what is not UTF-8 and what would steer a
@@ -41,5 +43,9 @@ class ProgressLine {
   bool terminal_;
   int last_percent_ = -1;
 };
+
+/// What libraries tell while they work: notes as complaints, progress on a line that stands as long
+/// as the monitor and its copies do. Signals cancel the work.
+Monitor terminal_monitor();
 
 }  // namespace mimicry::cli

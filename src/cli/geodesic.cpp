@@ -9,15 +9,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/io/number.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "geodesic/site.h"
+#include "io/number.h"
 
 namespace mimicry::cli {
 namespace {
@@ -28,7 +29,7 @@ struct GeodesicArguments {
   std::optional<std::string> to;
   std::string out;
   double radius = kInfinity;
-  spatial::TargetOptions target;
+  TargetOptions target;
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
@@ -38,7 +39,7 @@ struct GeodesicArguments {
 }
 
 // The surface's vertices that one of the file's became: several where sheets met in it.
-std::vector<SurfacePoint> vertex_points(const spatial::Target& target, Index v) {
+std::vector<SurfacePoint> vertex_points(const Target& target, Index v) {
   std::set<Index> found;
   for (Index f = 0; f < target.mesh().face_count(); ++f) {
     if (repeats_corner(target.mesh().face(f))) continue;
@@ -49,14 +50,14 @@ std::vector<SurfacePoint> vertex_points(const spatial::Target& target, Index v) 
   if (found.empty() && source && source->surface_vertex[at(v)] != kNone)
     found.insert(source->surface_vertex[at(v)]);
   std::vector<SurfacePoint> points;
-  for (const Index s : found) points.push_back(geodesic::vertex_point(target.half_edges(), s));
+  for (const Index s : found) points.push_back(vertex_point(target.half_edges(), s));
   return points;
 }
 
 // v17, or face,b0,b1,b2; of the file.
-std::vector<SurfacePoint> parse_points(const std::string& text, const spatial::Target& target) {
+std::vector<SurfacePoint> parse_points(const std::string& text, const Target& target) {
   if (text.starts_with('v')) {
-    const auto vertex = io::parse_integer(text.substr(1));
+    const auto vertex = parse_integer(text.substr(1));
     const Index count = source_vertex_count(target.mesh());
     if (!vertex || *vertex < 0 || *vertex >= count)
       refuse(text, "the mesh has vertices 0 to " + std::to_string(count - 1));
@@ -67,7 +68,7 @@ std::vector<SurfacePoint> parse_points(const std::string& text, const spatial::T
   std::vector<double> numbers;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t comma = std::min(text.find(',', start), text.size());
-    const auto value = io::parse_double(text.substr(start, comma - start));
+    const auto value = parse_double(text.substr(start, comma - start));
     if (!value) refuse(text, "it is not a point");
     numbers.push_back(*value);
     start = comma + 1;
@@ -77,7 +78,7 @@ std::vector<SurfacePoint> parse_points(const std::string& text, const spatial::T
       numbers[0] >= target.mesh().face_count())
     refuse(text, "the mesh has faces 0 to " + std::to_string(target.mesh().face_count() - 1));
   const SurfacePoint p{static_cast<Index>(numbers[0]), Vec3(numbers[1], numbers[2], numbers[3])};
-  geodesic::check_surface_point(target.mesh(), p, "point '" + text + "'");
+  check_surface_point(target.mesh(), p, "point '" + text + "'");
   if (repeats_corner(target.mesh().face(p.face)))
     refuse(text, "this face was left out of the surface: it is collapsed, or lies on another");
   return {source_point(target.mesh(), p)};
@@ -89,7 +90,7 @@ nlohmann::ordered_json point_json(const SurfacePoint& p, const TriangleMesh& mes
       {"face", p.face}, {"bary", {bary[0], bary[1], bary[2]}}, {"position", {x[0], x[1], x[2]}}};
 }
 
-std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesic::Source>& sources,
+std::string path_json(const ExactPath& path, const std::vector<Source>& sources,
                       const SurfacePoint& to, const TriangleMesh& mesh) {
   nlohmann::ordered_json crossings = nlohmann::ordered_json::array();
   for (const Crossing& crossing : path.crossings) {
@@ -110,7 +111,7 @@ std::string path_json(const geodesic::ExactPath& path, const std::vector<geodesi
 }
 
 // Of the file's vertices; of one that became several the nearest counts.
-std::string distances_csv(const geodesic::ExactGeodesics& geodesics, const TriangleMesh& surface) {
+std::string distances_csv(const ExactGeodesics& geodesics, const TriangleMesh& surface) {
   std::vector<double> distances(at(source_vertex_count(surface)), kInfinity);
   for (Index f = 0; f < surface.face_count(); ++f) {
     if (repeats_corner(surface.face(f))) continue;
@@ -127,7 +128,7 @@ std::string distances_csv(const geodesic::ExactGeodesics& geodesics, const Trian
   std::string out = "vertex,distance\n";
   for (std::size_t v = 0; v < distances.size(); ++v) {
     out += std::to_string(v) + ',';
-    io::append_double(out, distances[v]);
+    append_double(out, distances[v]);
     out += '\n';
   }
   return out;
@@ -144,17 +145,17 @@ void check_out(const GeodesicArguments& args) {
 }
 
 void run_geodesic(const GeodesicArguments& args, int& status) {
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
-  std::vector<geodesic::Source> sources;
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
+  std::vector<Source> sources;
   for (const std::string& text : args.from)
     for (const SurfacePoint& p : parse_points(text, target)) sources.push_back({p});
   std::optional<SurfacePoint> to;
   if (args.to) to = parse_points(*args.to, target).front();
 
-  geodesic::ExactGeodesics geodesics(target.mesh(), target.half_edges());
+  ExactGeodesics geodesics(target.surface());
   check_out(args);
-  geodesic::ExactOptions options;
+  ExactOptions options;
   options.radius = args.radius;
   if (to) options.targets = {&*to, 1};
   geodesics.compute(sources, options);
@@ -165,20 +166,20 @@ void run_geodesic(const GeodesicArguments& args, int& status) {
     status = kPartly;
   }
   if (!to) {
-    files::write_file_atomically(args.out, distances_csv(geodesics, target.mesh()));
+    write_file_atomically(args.out, distances_csv(geodesics, target.mesh()));
     std::printf("%s: %d distances\n", args.out.c_str(), named.mesh.vertex_count());
     return;
   }
-  const geodesic::ExactPath path = geodesics.path_to(*to);
+  const ExactPath path = geodesics.path_to(*to);
   if (!path.found) {
     std::printf("no path: the surface does not join the points%s\n",
                 std::isfinite(args.radius) ? " within the radius" : "");
     status = kPartly;
     return;
   }
-  files::write_file_atomically(args.out, path_json(path, sources, *to, target.mesh()));
+  write_file_atomically(args.out, path_json(path, sources, *to, target.mesh()));
   std::printf("%s: length %s, %zu crossings\n", args.out.c_str(),
-              io::format_double(path.length).c_str(), path.crossings.size());
+              format_double(path.length).c_str(), path.crossings.size());
 }
 
 }  // namespace

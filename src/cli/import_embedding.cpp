@@ -4,16 +4,18 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/bake/quality.h>
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
 #include <mimicry/io/embedding_file.h>
-#include <mimicry/io/embedding_text.h>
 
+#include "assets/bakes.h"
+#include "bake/quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/embedding_input.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "io/embedding_text.h"
 
 namespace mimicry::cli {
 namespace {
@@ -25,13 +27,12 @@ struct ImportEmbeddingArguments {
   std::string surface, shell, mesh, out;
 };
 
-io::EmbeddingText read(const std::string& file, int corners) {
-  return io::read_embedding_text(files::read_file(file),
-                                 std::filesystem::path(file).filename().string(), corners);
+EmbeddingText read(const std::string& file, int corners) {
+  return read_embedding_text(read_file(file), file_name(file), corners);
 }
 
 // The vertices' places as the mesh's own file has them, so that the embedding is that mesh's.
-void take_positions(embedding::Embedding& e, const NamedMesh& named) {
+void take_positions(Embedding& e, const NamedMesh& named) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::invalid_input,
                 named.name + ": " + what + "; give the mesh that the embedding was made of");
@@ -46,18 +47,18 @@ void take_positions(embedding::Embedding& e, const NamedMesh& named) {
       refuse("vertex " + std::to_string(v) + " stands elsewhere than in the surface's file");
     p = named.mesh.position(v);
   }
-  e.mesh_hash = embedding::content_hash(named.mesh);
+  e.mesh_hash = content_hash(named.mesh);
   e.diagonal = diagonal(named.mesh);
 }
 
 void run_import_embedding(const ImportEmbeddingArguments& args) {
-  embedding::Embedding e = io::make_embedding(read(args.surface, 3), read(args.shell, 4));
-  if (!args.mesh.empty()) take_positions(e, load_mesh(args.mesh));
-  const Eigen::Map<const bake::Values> values(e.values.data(), e.vertex_count(), e.dimension);
-  e.quality.sliver_percent = bake::sliver_percent(e.tets, values);
+  Embedding e = make_embedding(read(args.surface, 3), read(args.shell, 4));
+  if (!args.mesh.empty()) take_positions(e, load_mesh(args.mesh, terminal_monitor()));
+  const Eigen::Map<const Values> values(e.values.data(), e.vertex_count(), e.dimension);
+  e.quality.sliver_percent = sliver_percent(e.tets, values);
   // All that is refused is refused before the file is written.
-  const LoadedProjector projector(e, std::filesystem::path(args.surface).filename().string());
-  files::write_file_atomically(args.out, io::write_embedding(e));
+  make_projector(e, file_name(args.surface));
+  write_file_atomically(args.out, write_embedding(e));
   std::printf("%s: %d vertices, %d faces; shell of %d vertices, %zu tetrahedra; slivers %s %%\n",
               args.out.c_str(), e.mesh_vertex_count, e.face_count(), e.vertex_count(),
               e.tets.size(), fixed(e.quality.sliver_percent, 2).c_str());

@@ -1,15 +1,18 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/validation.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
+#include "io/text.h"
 
 namespace mimicry::cli {
 namespace {
@@ -19,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   std::string mesh;
   bool json = false;
-  spatial::TargetOptions target;
+  TargetOptions target;
 };
 
 Json array_of(const Vec3& v) {
@@ -71,8 +74,30 @@ Json surface_json(const MeshReport& surface, const ConnectReport& c) {
           {"notes", c.sentences()}};
 }
 
+template <std::size_t N>
+Index corners_with(const CornerValues<N>& values) {
+  return static_cast<Index>(values.corners.size()) -
+         static_cast<Index>(std::count(values.corners.begin(), values.corners.end(), kNone));
+}
+
+Json attributes_json(const MeshAttributes& a) {
+  return {{"texcoord_corners", corners_with(a.texcoords)},
+          {"texcoords", a.texcoords.empty() ? std::size_t{0} : a.texcoords.values.size()},
+          {"color_corners", corners_with(a.colors)},
+          {"colors", a.colors.empty() ? std::size_t{0} : a.colors.values.size()},
+          {"groups", a.groups.names},
+          {"materials", a.materials.names},
+          {"objects", a.objects.names}};
+}
+
+const MeshAttributes& attributes_of(const TriangleMesh& mesh) {
+  static const MeshAttributes none;
+  return mesh.attributes() ? *mesh.attributes() : none;
+}
+
 Json report_json(const std::string& name, const MeshReport& r, const MeshReport& surface,
-                 const ConnectReport& connection, const std::string& refusal) {
+                 const ConnectReport& connection, const MeshAttributes& attributes,
+                 const std::string& refusal) {
   Json components = Json::array();
   for (const ComponentReport& c : r.components) components.push_back(component_json(c));
   Json duplicate = first_json(r.duplicate_faces);
@@ -104,6 +129,7 @@ Json report_json(const std::string& name, const MeshReport& r, const MeshReport&
           {"repeated_corners", first_json(r.repeated_corners)},
           {"degenerate_faces", first_json(r.degenerate_faces)},
           {"duplicate_faces", duplicate},
+          {"attributes", attributes_json(attributes)},
           {"surface", surface_json(surface, connection)},
           {"components", components}};
 }
@@ -123,8 +149,33 @@ std::string name_of(const EdgeFinding& e) {
   return "vertices " + std::to_string(e.first_tail) + "-" + std::to_string(e.first_head);
 }
 
+template <std::size_t N>
+void print_values(const char* what, const CornerValues<N>& values) {
+  if (!values.empty())
+    std::printf("  %-34s %zu, at %d corners of %zu\n", what, values.values.size(),
+                corners_with(values), values.corners.size());
+}
+
+void print_labels(const char* what, const FaceLabels& labels) {
+  constexpr std::size_t kMost = 20;  // of a file with thousands
+  if (labels.empty()) return;
+  std::printf("  %-34s %zu: ", what, labels.names.size());
+  for (std::size_t n = 0; n < std::min(labels.names.size(), kMost); ++n)
+    std::printf("%s%s", n > 0 ? ", " : "", one_line(labels.names[n]).c_str());
+  std::printf("%s\n", labels.names.size() > kMost ? ", ..." : "");
+}
+
+void print_attributes(const MeshAttributes& a) {
+  print_values("texture coordinates", a.texcoords);
+  print_values("colours", a.colors);
+  print_labels("groups", a.groups);
+  print_labels("materials", a.materials);
+  print_labels("objects", a.objects);
+}
+
 void print_report(const std::string& name, const MeshReport& r, const MeshReport& surface,
-                  const ConnectReport& connection, const std::string& refusal) {
+                  const ConnectReport& connection, const MeshAttributes& attributes,
+                  const std::string& refusal) {
   std::printf("%s\n", name.c_str());
   std::printf("  %-34s %d, %d\n", "vertices, faces of the file", r.vertices, r.faces);
   std::printf("  %-34s %d, %d, %d\n", "vertices, edges, faces drawn on", surface.vertices,
@@ -159,6 +210,7 @@ void print_report(const std::string& name, const MeshReport& r, const MeshReport
                 name_of("vertex", r.isolated_vertices.first));
   print_finding("vertices that are not finite", r.invalid_vertices.count,
                 name_of("vertex", r.invalid_vertices.first));
+  print_attributes(attributes);
   for (const std::string& sentence : connection.sentences())
     std::printf("  %s\n", sentence.c_str());
   if (refusal.empty())
@@ -168,23 +220,24 @@ void print_report(const std::string& name, const MeshReport& r, const MeshReport
 }
 
 void run_info(const InfoArguments& args, int& status) {
-  const NamedMesh named = load_mesh(args.mesh);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
   const Connected connected = connect(named.mesh, {.join = args.target.join});
   const MeshReport surface = validate(connected.mesh);
   const MeshReport report = report_as_drawn(named.mesh, surface);
+  const MeshAttributes& attributes = attributes_of(named.mesh);
   std::string refusal;
   try {
-    (void)make_target_silently(named, args.target);
+    (void)make_target(named, args.target);
   } catch (const Error& error) {
     refusal = error.what();
     status = kBadInput;
   }
   if (args.json)
-    std::printf(
-        "%s\n",
-        json_text(report_json(named.name, report, surface, connected.report, refusal)).c_str());
+    std::printf("%s\n", json_text(report_json(named.name, report, surface, connected.report,
+                                              attributes, refusal))
+                            .c_str());
   else
-    print_report(named.name, report, surface, connected.report, refusal);
+    print_report(named.name, report, surface, connected.report, attributes, refusal);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 namespace mimicry::cli {
 
 /// From here on Ctrl-C, a request to end and the end of the terminal (SIGINT, SIGTERM, SIGHUP) end
@@ -19,7 +17,7 @@ void end_if_requested();
 /// Ends the program where it is, as a second signal does.
 [[noreturn]] void end_now();
 
-/// A program that we wait for: it is ended with us. 0: none.
-void set_child(pid_t child);
+/// A program that we wait for: it is ended with us. 0: none. Not on Windows.
+void set_child(long process_number);
 
 }  // namespace mimicry::cli

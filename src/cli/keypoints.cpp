@@ -6,12 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/study/keypoints.h>
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
+#include <mimicry/study/targets.h>
 
+#include "assets/target_curves.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
-#include "cli/target_curves.h"
+#include "cli/options.h"
+#include "files/names.h"
 
 namespace mimicry::cli {
 namespace {
@@ -21,25 +24,23 @@ struct KeypointsArguments {
   std::string targets;
   std::string shape;
   double scale = 0.0;
-  spatial::TargetOptions target;
+  TargetOptions target;
   bool json = false;
 };
 
 void run_keypoints(const KeypointsArguments& args) {
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
-  const study::TargetSet set = load_targets(args.targets);
-  const std::string wanted =
-      args.shape.empty() ? std::filesystem::path(named.name).stem().string() : args.shape;
-  const study::TargetShape& shape = find_target_shape(set, wanted, args.targets);
-  study::require_fits(shape, named.mesh);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
+  const TargetSet set = load_target_curves(args.targets);
+  const std::string wanted = args.shape.empty() ? file_stem(named.name) : args.shape;
+  const TargetShape& shape = find_target_shape(set, wanted, args.targets);
+  require_fits(shape, named.mesh);
   const double scale = args.scale > 0.0 ? args.scale : shape.scale;
 
   nlohmann::ordered_json curves = nlohmann::ordered_json::array();
   std::vector<std::vector<std::string>> rows;
-  for (const study::TargetCurve& curve : shape.curves) {
-    const std::vector<Index> found =
-        study::keypoints(target.mesh(), target.half_edges(), curve.points, scale);
+  for (const TargetCurve& curve : shape.curves) {
+    const std::vector<Index> found = keypoints(target.surface(), curve.points, scale);
     curves.push_back({{"keypoints", found}});
     std::string list;
     for (const Index k : found) list += (list.empty() ? "" : " ") + std::to_string(k);

@@ -1,4 +1,4 @@
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -9,16 +9,16 @@
 #include <string>
 #include <system_error>
 #include <type_traits>
-
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
+#include <utility>
+#include <vector>
 
 #include <mimicry/base/error.h>
+#include <mimicry/version.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
+#include "cli/system.h"
 
 namespace {
 
@@ -29,20 +29,11 @@ int exit_code_of(mimicry::ErrorKind kind) {
   return kind == mimicry::ErrorKind::io ? kFileTrouble : kBadInput;
 }
 
-// Where a standard stream is closed, the next file that is opened would take its place and get what
-// is printed. What stands there instead cannot be written to.
-void hold_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) (void)::open("/dev/null", O_RDONLY);
-}
-
 // The status, or that what was printed did not arrive.
 int status_after_printing(int status) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
   // Whoever read has enough: no news for them.
-  pollfd reader{STDOUT_FILENO, POLLOUT, 0};
-  if (::poll(&reader, 1, 0) != 1 || (reader.revents & POLLERR) == 0)
-    complain("standard output cannot be written to; give it room");
+  if (!output_reader_is_gone()) complain("standard output cannot be written to; give it room");
   return kFileTrouble;
 }
 
@@ -76,7 +67,7 @@ void check_numbers(CLI::App& app) {
 
 int main(int argc, char** argv) {
   catch_signals();
-  hold_standard_streams();
+  prepare_standard_streams();
   CLI::App app("Turns strokes drawn in mid-air into the curves that were meant on a surface.",
                "mimicry");
   app.set_version_flag("--version", MIMICRY_VERSION);
@@ -107,7 +98,10 @@ int main(int argc, char** argv) {
   add_replay(app, status);
   check_numbers(app);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments = command_line(argc, argv);
+    arguments.erase(arguments.begin(), arguments.begin() + (arguments.empty() ? 0 : 1));
+    std::reverse(arguments.begin(), arguments.end());  // the last first, as the parser takes them
+    app.parse(std::move(arguments));
     return status_after_printing(status);
   } catch (const CLI::ParseError& error) {
     std::ostringstream help, fault;

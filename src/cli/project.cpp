@@ -7,30 +7,28 @@
 #include <utility>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
+#include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/files/output_lock.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/curves_glb.h>
-#include <mimicry/io/curves_ply.h>
-#include <mimicry/io/number.h>
-#include <mimicry/io/tube_mesh.h>
-#include <mimicry/render/palette.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/polyline.h>
 
-#include "cli/canvas.h"
+#include "assets/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
 #include "cli/project_table.h"
 #include "cli/strokes_input.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "files/output_lock.h"
+#include "io/number.h"
+#include "io/tube_mesh.h"
+#include "render/palette.h"
+#include "study/polyline.h"
 
 namespace mimicry::cli {
 namespace {
-
-using stroke::Stroke;
-using technique::TechniqueInfo;
 
 struct ProjectArguments {
   std::string mesh;
@@ -48,7 +46,7 @@ struct ProjectArguments {
   std::string tube_width = "pressure";
   double minimum_motion_mm = 0.0;
   double tube_radius = 0.0;  // model units; 0: a fraction of the diagonal
-  spatial::TargetOptions target;
+  TargetOptions target;
   bool json = false;
 };
 
@@ -69,7 +67,7 @@ OptionValue parse_option(const std::string& text) {
   std::string rest = equals == std::string::npos ? "" : text.substr(equals + 1);
   while (!rest.empty()) {
     const std::size_t comma = rest.find(',');
-    const auto value = io::parse_double(rest.substr(0, comma));
+    const auto value = parse_double(rest.substr(0, comma));
     if (!value) break;
     option.values.push_back(*value);
     rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
@@ -81,12 +79,11 @@ OptionValue parse_option(const std::string& text) {
 }
 
 // Options go to the chosen techniques that have them; one that none has is an error.
-technique::Options options_for(const TechniqueInfo& info, const std::vector<OptionValue>& given) {
-  technique::Options options;
+TechniqueOptions options_for(const TechniqueInfo& info, const std::vector<OptionValue>& given) {
+  TechniqueOptions options;
   for (const OptionValue& option : given)
-    for (const technique::OptionInfo& known : info.options)
-      if (known.name == option.name)
-        technique::set_option(info, options, option.name, option.values);
+    for (const OptionInfo& known : info.options)
+      if (known.name == option.name) set_option(info, options, option.name, option.values);
   return options;
 }
 
@@ -95,7 +92,7 @@ void require_known(const std::vector<OptionValue>& given,
   for (const OptionValue& option : given) {
     bool known = false;
     for (const TechniqueInfo* info : chosen)
-      for (const technique::OptionInfo& o : info->options) known = known || o.name == option.name;
+      for (const OptionInfo& o : info->options) known = known || o.name == option.name;
     if (!known)
       throw Error(ErrorKind::invalid_input, "--option " + option.name +
                                                 ": none of the chosen techniques has it; "
@@ -150,43 +147,27 @@ std::vector<Vec3> intended_world_points(const Stroke& stroke, const TriangleMesh
   return points;
 }
 
-io::CurveRecord draw(const technique::Canvas& canvas, const TechniqueInfo& info,
-                     const Stroke& stroke, const session::SessionOptions& options,
-                     TechniqueRow& row) {
-  const spatial::Target& target = *canvas.target;
-  session::SessionOptions sized = options;
-  sized.expected_frames = stroke.frames.size();
-  session::StrokeSession session(canvas, info, sized);
+CurveRecord draw(const Canvas& canvas, const TechniqueInfo& info, const Stroke& stroke,
+                 const SessionOptions& options, TechniqueRow& row) {
+  const Target& target = canvas.target;
   const auto start = std::chrono::steady_clock::now();
-  session.begin(stroke.model_to_world);
-  for (const stroke::Frame& frame : stroke.frames) session.add(frame);
-  session.end();
+  ProjectedStroke drawn = mimicry::project(canvas, info, stroke, options);
   row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  const curve::ProjectedCurve& curve = session.curve();
+  const ProjectedCurve& curve = drawn.curve;
   row.frames += stroke.frames.size();
   row.points += curve.points.size();
-  row.missed += static_cast<std::size_t>(session.counts()[session::FrameStatus::missed]);
-  row.strokes.push_back({stroke.id, curve.points.size(), session.answers()});
+  row.missed += static_cast<std::size_t>(drawn.counts[FrameStatus::missed]);
+  row.strokes.push_back({stroke.id, curve.points.size(), drawn.answers});
   row.measures.add(target, stroke, curve);
-  row.length_m += stroke.model_to_world.scale * curve::length(curve);
+  row.length_m += stroke.model_to_world.scale * length(curve);
   if (stroke.intended && !stroke.intended->points.empty() && !curve.points.empty()) {
-    row.distance_sum_m += study::mean_corresponding_distance(
-        world_points(curve::polylines(curve, target.mesh()), stroke.model_to_world),
+    row.distance_sum_m += mean_corresponding_distance(
+        world_points(polylines(curve, target.mesh()), stroke.model_to_world),
         intended_world_points(stroke, target.mesh()));
     ++row.distances;
   }
-  io::CurveRecord record;
-  record.stroke = stroke.id;
-  record.technique = std::string(info.name);
-  for (const technique::OptionInfo& o : info.options) {
-    if (!technique::is_listed(o, options.technique)) continue;
-    const auto values = o.get(options.technique);
-    record.options[std::string(o.name)] = {values.begin(), values.end()};
-  }
-  record.model_to_world = stroke.model_to_world;
-  record.curve = curve;
-  return record;
+  return curve_record(stroke, info, std::move(drawn.curve), options.technique);
 }
 
 std::array<unsigned char, 3> color_of(const std::string& technique) {
@@ -195,40 +176,39 @@ std::array<unsigned char, 3> color_of(const std::string& technique) {
   return {byte(c.r), byte(c.g), byte(c.b)};
 }
 
-std::string file_bytes(const std::string& format, const io::CurveSet& set, const TriangleMesh& mesh,
+std::string file_bytes(const std::string& format, const CurveSet& set, const TriangleMesh& mesh,
                        const ProjectArguments& args, double tube_radius) {
   std::vector<std::array<unsigned char, 3>> colors;
-  for (const io::CurveRecord& record : set.curves) colors.push_back(color_of(record.technique));
-  if (format == "json") return io::write_curves_json(set, mesh);
+  for (const CurveRecord& record : set.curves) colors.push_back(color_of(record.technique));
+  if (format == "json") return write_curves_json(set, mesh);
   if (format == "obj")
-    return io::write_curves_obj(
-        set, mesh,
-        args.obj_lines == "polylines" ? io::ObjLines::polylines : io::ObjLines::segments);
-  if (format == "csv") return io::write_curves_csv(set, mesh);
+    return write_curves_obj(
+        set, mesh, args.obj_lines == "polylines" ? ObjLines::polylines : ObjLines::segments);
+  if (format == "csv") return write_curves_csv(set, mesh);
   const bool lines = args.curves_as == "lines";
   if (format == "glb")
-    return lines ? io::write_curves_glb_lines(set, mesh, colors)
-                 : io::write_curves_glb(set, mesh, colors, tube_radius);
-  return lines ? io::write_curves_ply_lines(set, mesh, colors)
-               : io::write_curves_ply(set, mesh, colors, tube_radius);
+    return lines ? write_curves_glb_lines(set, mesh, colors)
+                 : write_curves_glb(set, mesh, colors, tube_radius);
+  return lines ? write_curves_ply_lines(set, mesh, colors)
+               : write_curves_ply(set, mesh, colors, tube_radius);
 }
 
 // As thick as the pen was pressed; none for a device without pressure.
-std::vector<double> radii_of(const Stroke& stroke, const curve::ProjectedCurve& curve,
+std::vector<double> radii_of(const Stroke& stroke, const ProjectedCurve& curve,
                              double tube_radius) {
   std::vector<double> radii;
   const auto& frames = stroke.frames;
   if (std::none_of(frames.begin(), frames.end(), [](const auto& f) { return f.pressure; }))
     return radii;
-  for (const curve::CurvePoint& p : curve.points)
+  for (const CurvePoint& p : curve.points)
     radii.push_back(tube_radius *
-                    io::width_of_pressure(frames[static_cast<std::size_t>(p.frame)].pressure));
+                    width_of_pressure(frames[static_cast<std::size_t>(p.frame)].pressure));
   return radii;
 }
 
 void run_project(const ProjectArguments& args, int& status) {
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   const std::vector<Stroke> strokes =
       fitting_strokes(load_strokes(args.strokes, status), named, status);
   std::vector<Stroke> beside;
@@ -244,16 +224,15 @@ void run_project(const ProjectArguments& args, int& status) {
   for (const std::string& text : args.options) given.push_back(parse_option(text));
   require_known(given, chosen);
 
-  session::SessionOptions options;
-  options.misses =
-      args.misses == "split" ? session::MissPolicy::split : session::MissPolicy::connect;
+  SessionOptions options;
+  options.misses = args.misses == "split" ? MissPolicy::split : MissPolicy::connect;
   options.minimum_motion_m = 1e-3 * args.minimum_motion_mm;
 
-  const auto output_lock = files::OutputLock::of_folder(args.out);
-  const PreparedCanvas prepared(target, chosen, args.embedding, args.bake);
+  const auto output_lock = OutputLock::of_folder(args.out);
+  const Canvas canvas = make_canvas(target, chosen, terminal_monitor(), args.embedding, args.bake);
 
   const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
-  io::CurveSet set{named.name, {}};
+  CurveSet set{named.name, {}};
   std::vector<TechniqueRow> rows;
   {
     ProgressLine progress("projecting");
@@ -262,27 +241,26 @@ void run_project(const ProjectArguments& args, int& status) {
       rows.push_back({.technique = info});
       for (const Stroke& stroke : strokes) {
         if (!draws(*info, stroke, args)) continue;
-        io::CurveRecord record = draw(prepared.canvas(), *info, stroke, options, rows.back());
+        CurveRecord record = draw(canvas, *info, stroke, options, rows.back());
         if (args.tube_width == "pressure") record.radii = radii_of(stroke, record.curve, radius);
         set.curves.push_back(std::move(record));
       }
       TechniqueRow other;
       for (const Stroke& stroke : beside)
-        if (draws(*info, stroke, args)) draw(prepared.canvas(), *info, stroke, options, other);
+        if (draws(*info, stroke, args)) draw(canvas, *info, stroke, options, other);
       rows.back().beside = other.measures;
       progress.update(rows.size(), chosen.size());
     }
   }
 
-  const std::filesystem::path folder(args.out);
   // All bytes are made before the first file is written.
   std::vector<std::string> bytes;
   for (const std::string& format : args.formats)
     bytes.push_back(file_bytes(format, set, target.mesh(), args, radius));
   std::vector<std::string> written;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
-    written.push_back((folder / ("curves." + args.formats[i])).string());
-    files::write_file_atomically(written.back(), bytes[i]);
+    written.push_back(join_path(args.out, "curves." + args.formats[i]));
+    write_file_atomically(written.back(), bytes[i]);
   }
   if (args.json) return print_rows_json(rows, written);
   TableTitles titles{drawers_of(strokes), {}};

@@ -16,13 +16,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Where nothing was intended the curve stands for itself: distances are 0 and not used.
-study::TargetCurve intended_or_drawn(const stroke::Stroke& stroke,
-                                     const curve::ProjectedCurve& curve) {
-  study::TargetCurve target;
+TargetCurve intended_or_drawn(const Stroke& stroke, const ProjectedCurve& curve) {
+  TargetCurve target;
   if (stroke.intended && !stroke.intended->points.empty())
     target.points = stroke.intended->points;
   else
-    for (const curve::CurvePoint& p : curve.points) target.points.push_back(p.surface);
+    for (const CurvePoint& p : curve.points) target.points.push_back(p.surface);
   return target;
 }
 
@@ -76,14 +75,12 @@ void print_legend(const TableTitles& titles) {
 
 }  // namespace
 
-void MeasureSums::add(const spatial::Target& target, const stroke::Stroke& stroke,
-                      const curve::ProjectedCurve& curve) {
+void MeasureSums::add(const Target& target, const Stroke& stroke, const ProjectedCurve& curve) {
   if (curve.points.empty()) return;
   try {
-    const study::IntendedCurve meant = study::intended_curve(
-        target.mesh(), intended_or_drawn(stroke, curve), stroke.model_to_world.scale);
-    const study::Measures m =
-        study::measure(target.mesh(), target.half_edges(), meant, curve, study::motion_of(stroke));
+    const IntendedCurve meant = intended_curve(target.mesh(), intended_or_drawn(stroke, curve),
+                                               stroke.model_to_world.scale);
+    const Measures m = measure(target.surface(), meant, curve, motion_of(stroke));
     ++strokes;
     k_e_rad_per_m += m.k_e_rad_per_m;
     share_jumping += m.share_jumping;
@@ -103,13 +100,12 @@ std::optional<double> MeasureSums::mean_d_ep_m() const {
 std::size_t TechniqueRow::fallbacks() const {
   Index sum = 0;
   for (const StrokeCounts& s : strokes)
-    for (const auto answer : {technique::Answer::outside_shell,
-                              technique::Answer::no_phong_solution, technique::Answer::replaced})
+    for (const auto answer : {Answer::outside_shell, Answer::no_phong_solution, Answer::replaced})
       sum += s.answers[answer];
   return static_cast<std::size_t>(sum);
 }
 
-Drawers drawers_of(const std::vector<stroke::Stroke>& strokes) {
+Drawers drawers_of(const std::vector<Stroke>& strokes) {
   const auto all = [&](auto&& is) {
     return !strokes.empty() && std::all_of(strokes.begin(), strokes.end(), is);
   };
@@ -159,10 +155,9 @@ void print_rows_json(const std::vector<TechniqueRow>& rows, const std::vector<st
     if (row.beside.strokes > 0) entry["beside"] = to_json(row.beside);
     for (const StrokeCounts& s : row.strokes) {
       Json answers = Json::object();
-      for (std::size_t a = 0; a < technique::kAnswerCount; ++a)
+      for (std::size_t a = 0; a < kAnswerCount; ++a)
         if (s.answers.by_answer[a] > 0)
-          answers[std::string(technique::answer_name(static_cast<technique::Answer>(a)))] =
-              s.answers.by_answer[a];
+          answers[std::string(answer_name(static_cast<Answer>(a)))] = s.answers.by_answer[a];
       entry["strokes"].push_back(
           {{"stroke", s.stroke}, {"points", s.points}, {"answers", answers}});
     }

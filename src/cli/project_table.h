@@ -23,8 +23,7 @@ struct MeasureSums {
 
   /// Measures a stroke's curve. K_E is over the intended curve's length, or the drawn one's where
   /// nothing was intended. A curve without length is passed over.
-  void add(const spatial::Target& target, const stroke::Stroke& stroke,
-           const curve::ProjectedCurve& curve);
+  void add(const Target& target, const Stroke& stroke, const ProjectedCurve& curve);
   double mean_k_e() const { return k_e_rad_per_m / static_cast<double>(strokes); }
   double mean_share_jumping() const { return share_jumping / static_cast<double>(strokes); }
   std::optional<double> mean_d_ep_m() const;
@@ -33,12 +32,12 @@ struct MeasureSums {
 struct StrokeCounts {
   std::string stroke;
   std::size_t points;
-  session::AnswerCounts answers;
+  AnswerCounts answers;
 };
 
 /// What the table says of one technique, over all strokes.
 struct TechniqueRow {
-  const technique::TechniqueInfo* technique = nullptr;
+  const TechniqueInfo* technique = nullptr;
   std::size_t frames = 0;
   std::size_t points = 0;
   std::size_t missed = 0;
@@ -61,7 +60,7 @@ enum class Drawers {
   open_loop,    ///< simulated, blind
 };
 /// Of strokes that differ: recorded.
-Drawers drawers_of(const std::vector<stroke::Stroke>& strokes);
+Drawers drawers_of(const std::vector<Stroke>& strokes);
 
 struct TableTitles {
   Drawers strokes = Drawers::recorded;

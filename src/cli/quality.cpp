@@ -9,14 +9,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mimicry/bake/projection_quality.h>
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
 
+#include "assets/bakes.h"
+#include "assets/work.h"
+#include "bake/projection_quality.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/embedding_input.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
+#include "files/names.h"
+#include "io/csv.h"
 
 namespace mimicry::cli {
 namespace {
@@ -53,7 +56,7 @@ struct QualityArguments {
   std::vector<std::string> inputs;
   BakeSettings bake;
   bool csv = false, json = false;
-  spatial::TargetOptions target;
+  TargetOptions target;
 };
 
 struct QualityRow {
@@ -62,8 +65,8 @@ struct QualityRow {
   const PaperRow* paper = nullptr;
   Index vertices = 0, faces = 0, shell_vertices = 0;
   std::size_t tetrahedra = 0;
-  embedding::BakeQuality bake;
-  bake::ProjectionQuality projection;
+  BakeQuality bake;
+  ProjectionQuality projection;
 
   bool knows_stress() const { return bake.samples > 0; }
 };
@@ -72,7 +75,7 @@ struct QualityRow {
 // namesakes.
 const PaperRow* paper_row(const std::string& spec) {
   if (spec.starts_with("shape:")) return nullptr;
-  const std::string stem = std::filesystem::path(spec).stem().string();
+  const std::string stem = file_stem(spec);
   for (const PaperRow& row : kPaper)
     if (row.name == stem) return &row;
   return nullptr;
@@ -81,15 +84,15 @@ const PaperRow* paper_row(const std::string& spec) {
 QualityRow measure(const std::string& spec, const QualityArguments& args, Executor& executor) {
   QualityRow row;
   row.paper = paper_row(spec);
-  embedding::Embedding e;
+  Embedding e;
   if (is_embedding_file(spec)) {
-    row.name = std::filesystem::path(spec).filename().string();
+    row.name = file_name(spec);
     e = load_embedding(spec);
   } else {
-    const NamedMesh named = load_mesh(spec);
+    const NamedMesh named = load_mesh(spec, terminal_monitor());
     row.name = spec.starts_with("shape:") ? spec : named.name;
-    const spatial::Target target = make_target(named, args.target);
-    Baked baked = bake_mesh(target.mesh(), args.bake);
+    const Target target = make_target(named, args.target, terminal_monitor());
+    Baked baked = bake_mesh(target.mesh(), args.bake, terminal_monitor());
     row.was_kept = baked.was_kept;
     e = std::move(baked.embedding);
   }
@@ -98,9 +101,9 @@ QualityRow measure(const std::string& spec, const QualityArguments& args, Execut
   row.shell_vertices = e.vertex_count();
   row.tetrahedra = e.tets.size();
   row.bake = e.quality;
-  const LoadedProjector projector(std::move(e), row.name);
+  const SmoothProjector projector = make_projector(std::move(e), row.name);
   ProgressLine line("measuring " + row.name);
-  row.projection = bake::projection_quality(*projector, executor, [&](const Progress& now) {
+  row.projection = projection_quality(projector, executor, [&](const Progress& now) {
     line.update(static_cast<std::size_t>(100 * now.fraction), 100);
     return true;
   });
@@ -157,32 +160,31 @@ void print_csv(const std::vector<QualityRow>& rows) {
                                             "hit_a_cap",
                                             "paper_sliver_percent",
                                             "paper_fail_percent"};
-  std::string out = io::csv_heading(columns);
-  const auto flag = [](bool x) { return io::Cell(std::int64_t{x}); };
+  std::string out = csv_heading(columns);
+  const auto flag = [](bool x) { return Cell(std::int64_t{x}); };
   for (const QualityRow& row : rows) {
-    const std::vector<io::Cell> cells = {
-        row.name,
-        std::int64_t{row.vertices},
-        std::int64_t{row.faces},
-        std::int64_t{row.shell_vertices},
-        static_cast<std::int64_t>(row.tetrahedra),
-        row.bake.sliver_percent,
-        row.projection.fail_percent,
-        row.projection.no_solution_percent,
-        row.knows_stress() ? io::Cell(row.bake.stress) : io::Cell(),
-        row.projection.surface_error,
-        flag(row.bake.is_lattice),
-        flag(row.bake.hit_a_cap),
-        row.paper ? io::Cell(row.paper->sliver_percent) : io::Cell(),
-        row.paper ? io::Cell(row.paper->fail_percent) : io::Cell()};
-    out += io::csv_line(cells);
+    const std::vector<Cell> cells = {row.name,
+                                     std::int64_t{row.vertices},
+                                     std::int64_t{row.faces},
+                                     std::int64_t{row.shell_vertices},
+                                     static_cast<std::int64_t>(row.tetrahedra),
+                                     row.bake.sliver_percent,
+                                     row.projection.fail_percent,
+                                     row.projection.no_solution_percent,
+                                     row.knows_stress() ? Cell(row.bake.stress) : Cell(),
+                                     row.projection.surface_error,
+                                     flag(row.bake.is_lattice),
+                                     flag(row.bake.hit_a_cap),
+                                     row.paper ? Cell(row.paper->sliver_percent) : Cell(),
+                                     row.paper ? Cell(row.paper->fail_percent) : Cell()};
+    out += csv_line(cells);
   }
   std::fputs(out.c_str(), stdout);
 }
 
 Json row_json(const QualityRow& row) {
-  const bake::ProjectionQuality& p = row.projection;
-  const embedding::BakeQuality& b = row.bake;
+  const ProjectionQuality& p = row.projection;
+  const BakeQuality& b = row.bake;
   Json paper;
   if (row.paper)
     paper = {{"vertices", row.paper->vertices},

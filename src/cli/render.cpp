@@ -7,21 +7,23 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/csv.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/number.h>
 #include <mimicry/mesh/connect.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
 #include <mimicry/technique/technique.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
 #include "cli/strokes_input.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "io/csv.h"
+#include "io/number.h"
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 
 namespace mimicry::cli {
 namespace {
@@ -50,13 +52,13 @@ struct RenderArguments {
 constexpr render::Color kIntendedColor{0.98, 0.98, 0.94};
 
 std::string name_of(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
+  return file_name(path);
 }
 
 // Strokes are shown where they were drawn, in the mesh's coordinates.
-render::Tube stroke_tube(const stroke::Stroke& stroke, double radius) {
+render::Tube stroke_tube(const Stroke& stroke, double radius) {
   render::Tube tube;
-  for (const stroke::Frame& frame : stroke.frames)
+  for (const Frame& frame : stroke.frames)
     tube.points.push_back(stroke.model_to_world.inverse_point(frame.controller.position));
   tube.radius = 0.6 * radius;
   tube.color = render::kStrokeColor;
@@ -65,8 +67,7 @@ render::Tube stroke_tube(const stroke::Stroke& stroke, double radius) {
   return tube;
 }
 
-render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh& mesh,
-                           double radius) {
+render::Tube intended_tube(const Intention& intended, const TriangleMesh& mesh, double radius) {
   render::Tube tube;
   for (const SurfacePoint& p : intended.points) {
     if (p.face >= mesh.face_count())
@@ -83,7 +84,7 @@ render::Tube intended_tube(const stroke::Intention& intended, const TriangleMesh
 // The column of a `vertex,distance` file; what is unreachable gets the largest distance, so that no
 // line runs through it.
 std::vector<double> read_distances(const std::string& path, Index vertices) {
-  const io::CsvTable table = io::read_csv(files::read_file(path), name_of(path));
+  const CsvTable table = read_csv(read_file(path), name_of(path));
   const auto vertex_at = table.find("vertex"), distance_at = table.find("distance");
   if (!vertex_at || !distance_at)
     throw Error(ErrorKind::invalid_input, name_of(path) +
@@ -92,8 +93,8 @@ std::vector<double> read_distances(const std::string& path, Index vertices) {
   std::vector<double> distances(static_cast<std::size_t>(vertices), kInfinity);
   double largest = 0.0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const auto vertex = io::parse_integer(table.rows[i][*vertex_at]);
-    const auto distance = io::parse_double(table.rows[i][*distance_at]);
+    const auto vertex = parse_integer(table.rows[i][*vertex_at]);
+    const auto distance = parse_double(table.rows[i][*distance_at]);
     if (!vertex || *vertex < 0 || *vertex >= vertices || !distance || std::isnan(*distance))
       throw Error(ErrorKind::invalid_input,
                   name_of(path) + ": line " + std::to_string(table.lines[i]) +
@@ -105,9 +106,9 @@ std::vector<double> read_distances(const std::string& path, Index vertices) {
   return distances;
 }
 
-void add_curve(render::Scene& scene, const io::CurveRecord& record, const TriangleMesh& mesh,
+void add_curve(render::Scene& scene, const CurveRecord& record, const TriangleMesh& mesh,
                double radius) {
-  for (auto& part : curve::polylines(record.curve, mesh)) {
+  for (auto& part : polylines(record.curve, mesh)) {
     render::Tube tube;
     tube.points = std::move(part);
     tube.radius = radius;
@@ -117,24 +118,24 @@ void add_curve(render::Scene& scene, const io::CurveRecord& record, const Triang
   }
 }
 
-bool came_from(const io::CurveRecord& record, const stroke::Stroke& stroke) {
+bool came_from(const CurveRecord& record, const Stroke& stroke) {
   return record.stroke == stroke.id;
 }
 
 // The strokes that these curves came from; all where they came from none of them.
-std::vector<stroke::Stroke> strokes_of(const std::vector<stroke::Stroke>& strokes,
-                                       const std::vector<io::CurveRecord>& curves) {
-  std::vector<stroke::Stroke> some;
-  for (const stroke::Stroke& stroke : strokes)
+std::vector<Stroke> strokes_of(const std::vector<Stroke>& strokes,
+                               const std::vector<CurveRecord>& curves) {
+  std::vector<Stroke> some;
+  for (const Stroke& stroke : strokes)
     if (std::any_of(curves.begin(), curves.end(),
-                    [&](const io::CurveRecord& record) { return came_from(record, stroke); }))
+                    [&](const CurveRecord& record) { return came_from(record, stroke); }))
       some.push_back(stroke);
   return some.empty() ? strokes : some;
 }
 
-void add_strokes(render::Scene& scene, const std::vector<stroke::Stroke>& strokes, bool intended,
+void add_strokes(render::Scene& scene, const std::vector<Stroke>& strokes, bool intended,
                  const TriangleMesh& mesh, double radius) {
-  for (const stroke::Stroke& stroke : strokes) {
+  for (const Stroke& stroke : strokes) {
     scene.tubes.push_back(stroke_tube(stroke, radius));
     if (intended && stroke.intended)
       scene.tubes.push_back(intended_tube(*stroke.intended, mesh, radius));
@@ -143,13 +144,13 @@ void add_strokes(render::Scene& scene, const std::vector<stroke::Stroke>& stroke
 
 // One panel for each technique, in the order of the curve file, with the strokes that it drew.
 template <class ShowStrokes>
-std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveSet& set,
+std::vector<render::Scene> panels_of(const render::Scene& base, const CurveSet& set,
                                      const TriangleMesh& mesh, double radius,
                                      ShowStrokes&& show_strokes) {
   std::vector<render::Scene> panels;
-  std::map<std::string, std::vector<io::CurveRecord>> by_technique;
-  for (const io::CurveRecord& record : set.curves) by_technique[record.technique].push_back(record);
-  for (const io::CurveRecord& record : set.curves) {
+  std::map<std::string, std::vector<CurveRecord>> by_technique;
+  for (const CurveRecord& record : set.curves) by_technique[record.technique].push_back(record);
+  for (const CurveRecord& record : set.curves) {
     render::Scene* panel = nullptr;
     for (render::Scene& p : panels)
       if (p.caption == record.technique) panel = &p;
@@ -167,7 +168,7 @@ std::vector<render::Scene> panels_of(const render::Scene& base, const io::CurveS
 }
 
 void run_render(const RenderArguments& args, int& status) {
-  const NamedMesh named = load_mesh(args.mesh);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
   // Intended curves are on the surface, whose faces may be turned.
   const TriangleMesh drawn_on = connect(named.mesh).mesh;
   const double size = diagonal(drawn_on);
@@ -180,15 +181,15 @@ void run_render(const RenderArguments& args, int& status) {
     surface.iso_values = read_distances(args.distances, named.mesh.vertex_count());
     surface.iso_spacing = args.iso_spacing > 0.0 ? args.iso_spacing : 0.04 * size;
   }
-  std::vector<stroke::Stroke> strokes;
+  std::vector<Stroke> strokes;
   if (!args.strokes.empty()) strokes = load_strokes(args.strokes, status);
   if (!args.stroke.empty())
-    std::erase_if(strokes, [&](const stroke::Stroke& s) { return s.id != args.stroke; });
-  io::CurveSet set;
+    std::erase_if(strokes, [&](const Stroke& s) { return s.id != args.stroke; });
+  CurveSet set;
   if (!args.curves.empty())
-    set = io::read_curves_json(files::read_file(args.curves), name_of(args.curves), named.mesh);
-  for (const std::string& name : args.techniques) (void)technique::find_technique(name);
-  std::erase_if(set.curves, [&](const io::CurveRecord& record) {
+    set = read_curves_json(read_file(args.curves), name_of(args.curves), named.mesh);
+  for (const std::string& name : args.techniques) (void)find_technique(name);
+  std::erase_if(set.curves, [&](const CurveRecord& record) {
     return (!args.stroke.empty() && record.stroke != args.stroke) ||
            (!args.techniques.empty() && std::find(args.techniques.begin(), args.techniques.end(),
                                                   record.technique) == args.techniques.end());
@@ -203,7 +204,7 @@ void run_render(const RenderArguments& args, int& status) {
   camera.elevation_deg = args.elevation;
   camera.zoom = args.zoom;
   render::Image image;
-  const auto show_strokes = [&](render::Scene& to, const std::vector<io::CurveRecord>& curves) {
+  const auto show_strokes = [&](render::Scene& to, const std::vector<CurveRecord>& curves) {
     add_strokes(to, strokes_of(strokes, curves), args.intended, drawn_on, radius);
   };
   if (args.side_by_side) {
@@ -218,16 +219,16 @@ void run_render(const RenderArguments& args, int& status) {
     image = render::figure(panels, camera, options);
   } else {
     show_strokes(scene, set.curves);
-    for (const io::CurveRecord& record : set.curves) add_curve(scene, record, named.mesh, radius);
+    for (const CurveRecord& record : set.curves) add_curve(scene, record, named.mesh, radius);
     render::RenderOptions options;
     if (args.width > 0) options.width = args.width;
     if (args.height > 0) options.height = args.height;
     image = render::picture(scene, camera, options);
   }
-  const std::filesystem::path folder = std::filesystem::path(args.out).parent_path();
+  const std::filesystem::path folder = to_path(args.out).parent_path();
   std::error_code trouble;
   if (!folder.empty()) std::filesystem::create_directories(folder, trouble);
-  files::write_file_atomically(args.out, render::write_png(image));
+  write_file_atomically(args.out, render::write_png(image));
   std::printf("%s\n", args.out.c_str());
 }
 

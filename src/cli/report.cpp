@@ -6,19 +6,19 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/files/output_lock.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/embedding_input.h"
-#include "cli/mesh_input.h"
+#include "cli/options.h"
 #include "cli/report/bundle.h"
-#include "cli/report/figure_data.h"
 #include "cli/report/figure_files.h"
 #include "cli/report/gallery.h"
 #include "cli/report/page.h"
-#include "cli/report/replay_sources.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "files/output_lock.h"
+#include "lab/measured_rows.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {
@@ -30,27 +30,25 @@ struct ReportArguments {
   std::string rows = "rows.csv";
   std::string out;
   std::string title;
-  SummaryOptions summary;
+  lab::SummaryOptions summary;
   GalleryOptions gallery;
 };
 
 // What `measure` lists beside its rows; none where there is no such file.
-std::vector<RejectedStroke> rejected_beside(const fs::path& rows) {
-  const fs::path path = rows.parent_path() / (rows.stem().string() + ".rejected.csv");
-  if (!fs::exists(path)) return {};
-  const std::string name = path.filename().string();
-  return read_rejected(io::read_csv(files::read_file(path.string(), files::Accept::regular), name),
-                       name);
+std::vector<lab::RejectedStroke> read_rejected(const std::string& rows) {
+  const std::string path = lab::rejected_beside(rows);
+  if (!fs::exists(to_path(path))) return {};
+  return lab::read_rejected(read_file(path, Accept::regular), file_name(path));
 }
 
 // mimicry-worst-1.png.
-void write_pictures(const Gallery& gallery, const fs::path& folder) {
+void write_pictures(const Gallery& gallery, const std::string& folder) {
   std::map<std::string, int> numbers;
   for (const GalleryPicture& picture : gallery.pictures) {
-    const std::string kind =
-        file_part(picture.row->method) + "-" + (picture.best ? "best" : "worst") + "-";
-    files::write_file_atomically(
-        (folder / (kind + std::to_string(++numbers[kind]) + ".png")).string(), picture.png);
+    const std::string kind = lab::file_part(picture.pick.row->method) + "-" +
+                             (picture.pick.best ? "best" : "worst") + "-";
+    write_file_atomically(join_path(folder, kind + std::to_string(++numbers[kind]) + ".png"),
+                          picture.png);
   }
 }
 
@@ -58,47 +56,47 @@ void run_report(ReportArguments args) {
   if (page_script().empty())
     throw Error(ErrorKind::unsupported,
                 "report: this build has no plots; run scripts/setup and build again");
-  const fs::path folder(args.folder);
-  if (!fs::is_directory(folder))
+  if (!fs::is_directory(to_path(args.folder)))
     throw Error(ErrorKind::io, args.folder +
                                    ": is no folder; give the one that has the measured "
                                    "strokes, " +
                                    args.rows);
-  const fs::path rows_file = folder / args.rows;
-  if (!fs::exists(rows_file))
+  const std::string rows_file = join_path(args.folder, args.rows);
+  if (!fs::exists(to_path(rows_file)))
     throw Error(ErrorKind::io, args.folder + ": has no " + args.rows +
-                                   "; measure strokes with mimicry measure --out " +
-                                   rows_file.string() + ", or name the file with --rows");
-  const StudyRows rows(io::read_csv(files::read_file(rows_file.string()), args.rows), args.rows);
-  const std::vector<RejectedStroke> rejected = rejected_beside(rows_file);
-  const Summary summary = summarise(rows, args.summary);
+                                   "; measure strokes with mimicry measure --out " + rows_file +
+                                   ", or name the file with --rows");
+  const lab::StudyRows rows(lab::read_rows(read_file(rows_file), args.rows, terminal_monitor()),
+                            args.rows);
+  const std::vector<lab::RejectedStroke> rejected = read_rejected(rows_file);
+  const lab::Summary summary = lab::summarise(rows, args.summary);
   if (args.gallery.count > 0 && !rows.has(args.gallery.measure))
     throw Error(ErrorKind::invalid_input,
                 "--gallery-by: " + args.rows + " has no column '" + args.gallery.measure + "'");
   if (args.gallery.count > 0)
-    add_replay_sources(rows_file.parent_path().string(), args.gallery.sources);
+    lab::add_replay_sources(to_text(to_path(rows_file).parent_path()), args.gallery.sources);
   if (args.gallery.sources.recordings.empty()) args.gallery.sources.recordings = args.folder;
   const Gallery gallery = make_gallery(rows, summary, args.gallery);
 
-  const fs::path out = args.out.empty() ? folder : fs::path(args.out);
-  const fs::path figures = out / "figures";
-  const auto output_lock = files::OutputLock::of_folder(figures.string());
-  const std::string data = json_text(figure_data(summary), -1);
-  files::write_file_atomically((figures / "data.json").string(), data);
+  const std::string out = args.out.empty() ? args.folder : args.out;
+  const std::string figures = join_path(out, "figures");
+  const auto output_lock = OutputLock::of_folder(figures);
+  const std::string data = lab::figure_data(summary, method_color);
+  write_file_atomically(join_path(figures, "data.json"), data);
   write_pictures(gallery, figures);
   if (args.title.empty())
-    args.title = "Study " + fs::absolute(folder).lexically_normal().filename().string();
-  const std::string page = (out / "report.html").string();
-  files::write_file_atomically(page,
-                               write_page(summary, rejected, gallery, args.gallery, data,
-                                          {args.title, args.summary.comparison.bootstrap.level}));
+    args.title =
+        "Study " + to_text(fs::absolute(to_path(args.folder)).lexically_normal().filename());
+  const std::string page = join_path(out, "report.html");
+  write_file_atomically(page, write_page(summary, rejected, gallery, args.gallery, data,
+                                         {args.title, args.summary.comparison.bootstrap.level}));
   std::printf("%s\n", page.c_str());
   if (gallery.pictures.empty() && !gallery.problems.empty())
     complain("no pictures of strokes (" + gallery.problems.front() +
              "); --recordings, --shapes and --targets say where they are, --gallery 0 leaves them "
              "out");
-  if (draw_figure_files(figures.string()))
-    std::printf("%s: the figures as SVG and PNG\n", figures.string().c_str());
+  if (draw_figure_files(figures))
+    std::printf("%s: the figures as SVG and PNG\n", figures.c_str());
   else
     complain(
         "no SVG and PNG files, for want of the program node (18 or newer); the page draws its "

@@ -7,13 +7,17 @@
 #include <system_error>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/points.h>
+#include <mimicry/io/strokes.h>
 
+#include "assets/bakes.h"
+#include "assets/work.h"
 #include "cli/commands.h"
-#include "cli/embedding_input.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::cli {
 namespace {
@@ -27,29 +31,29 @@ struct ScpArguments {
 };
 
 void run_scp(const ScpArguments& args, int& status) {
-  const std::string points_name = std::filesystem::path(args.points).filename().string();
+  const std::string points_name = file_name(args.points);
   std::error_code unknown;  // of a file that does not exist
-  if (std::filesystem::equivalent(args.points, args.out, unknown))
+  if (std::filesystem::equivalent(to_path(args.points), to_path(args.out), unknown))
     throw Error(ErrorKind::invalid_input,
                 args.out + ": is what --points names, and would be lost; give another --out");
-  const io::PointRows rows = io::read_points_csv(files::read_file(args.points), points_name);
-  const LoadedProjector projector(load_embedding(args.embedding),
-                                  std::filesystem::path(args.embedding).filename().string());
+  const PointRows rows = read_points_csv(read_file(args.points), points_name);
+  const SmoothProjector projector =
+      make_projector(load_embedding(args.embedding), file_name(args.embedding));
 
-  std::vector<std::optional<embedding::SmoothPoint>> answers(rows.points.size());
+  std::vector<std::optional<SmoothPoint>> answers(rows.points.size());
   Executor executor(thread_count(args.threads));
   executor.for_chunks(answers.size(), kChunk, [&](std::size_t begin, std::size_t end, int) {
-    embedding::ScpHint hint;
+    ScpHint hint;
     for (std::size_t i = begin; i < end; ++i)
       answers[i] =
-          projector->project(rows.points[i], {.replace_failed = args.replace_failed}, &hint);
+          projector.project(rows.points[i], {.replace_failed = args.replace_failed}, &hint);
   });
-  files::write_file_atomically(args.out, io::write_smooth_points_csv(answers));
+  write_file_atomically(args.out, write_smooth_points_csv(answers));
 
   std::size_t smooth = 0, undefined = 0, first = 0;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (!answers[i] && undefined++ == 0) first = i;
-    if (answers[i] && answers[i]->label == embedding::ScpLabel::smooth) ++smooth;
+    if (answers[i] && answers[i]->label == ScpLabel::smooth) ++smooth;
   }
   std::printf("%s: %zu points, %zu smooth, %zu closest points instead\n", args.out.c_str(),
               answers.size(), smooth, answers.size() - smooth - undefined);

@@ -14,10 +14,11 @@
 #include <qrcodegen/qrcodegen.hpp>
 #include <unistd.h>
 
-#include <mimicry/serve/server.h>
-
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
+#include "files/names.h"
+#include "serve/server.h"
 
 namespace mimicry::cli {
 namespace {
@@ -27,7 +28,7 @@ std::string studio_folder() {
   std::error_code trouble;
   const auto program = std::filesystem::canonical("/proc/self/exe", trouble);
   const auto installed = program.parent_path().parent_path() / "share" / "mimicry" / "studio";
-  return std::filesystem::is_directory(installed, trouble) ? installed.string() : MIMICRY_STUDIO;
+  return std::filesystem::is_directory(installed, trouble) ? to_text(installed) : MIMICRY_STUDIO;
 }
 
 std::string data_folder() {

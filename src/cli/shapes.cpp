@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "files/file.h"
 
 namespace mimicry::cli {
 namespace {
@@ -49,9 +49,9 @@ void run_shapes(const ShapesArguments& args) {
   if (args.name.empty()) return list_shapes(args.json);
   if (args.out.empty())
     throw Error(ErrorKind::invalid_input, "shapes " + args.name + ": where to? give --out FILE");
-  const io::MeshFormat format = io::mesh_format_of(args.out);
+  const MeshFormat format = mesh_format_of(args.out);
   const TriangleMesh mesh = make_shape(args.name, args.options);
-  files::write_file_atomically(args.out, io::write_mesh(mesh, format));
+  write_file_atomically(args.out, write_mesh(mesh, format));
   std::printf("%s: %d vertices, %d faces\n", args.out.c_str(), mesh.vertex_count(),
               mesh.face_count());
 }

@@ -1,10 +1,8 @@
 #include "cli/strokes_input.h"
 
-#include <filesystem>
 #include <utility>
 
-#include <mimicry/files/file.h>
-#include <mimicry/io/strokes.h>
+#include <mimicry/assets/files.h>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -16,9 +14,8 @@ void tell_left_out(const std::string& what, int& status) {
   status = kPartly;
 }
 
-std::vector<stroke::Stroke> load_strokes(const std::string& path, int& status) {
-  const std::string name = std::filesystem::path(path).filename().string();
-  io::StrokesFile file = io::read_strokes(files::read_file(path), name);
+std::vector<Stroke> load_strokes(const std::string& path, int& status) {
+  StrokesFile file = mimicry::load_strokes(path);
   for (const std::string& what : file.left_out) tell_left_out(what, status);
   return std::move(file.strokes);
 }

@@ -6,26 +6,23 @@
 #include <string>
 #include <vector>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/files/output_lock.h>
-#include <mimicry/io/targets_writer.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
-#include <mimicry/study/sample_targets.h>
+#include <mimicry/io/study.h>
+#include <mimicry/study/targets.h>
 
-#include "cli/canvas.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "cli/mesh_input.h"
+#include "cli/contact_sheet.h"
+#include "cli/options.h"
+#include "files/file.h"
+#include "files/names.h"
+#include "files/output_lock.h"
 
 namespace mimicry::cli {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr render::Color kCurveColor{0.10, 0.35, 0.65};
-constexpr render::Color kKeypointColor{0.85, 0.33, 0.10};
 
 struct TargetsArguments {
   std::string mesh;
@@ -37,45 +34,12 @@ struct TargetsArguments {
   std::uint64_t seed = 1;
   double scale = 0.0;
   std::string up = "y";
-  study::TargetSampling sampling;
+  TargetSampling sampling;
   std::vector<double> k_g;
   std::vector<double> k_n_deg;
-  spatial::TargetOptions target;
+  TargetOptions target;
   bool no_picture = false;
 };
-
-std::string caption_of(std::size_t number, const study::TargetCurve& curve) {
-  return std::to_string(number) + ":  k_G " + fixed(curve.parameters->k_g, 2) + ", k_N " +
-         fixed(curve.parameters->k_n_deg, 0) + "\u00b0, " + std::to_string(curve.keypoints.size()) +
-         " keypoints";
-}
-
-// A panel for each curve, its keypoints as balls.
-std::string contact_sheet(const spatial::Target& target,
-                          const std::vector<study::TargetCurve>& curves, const Vec3& up) {
-  std::vector<render::Scene> panels;
-  const double radius = 0.005 * target.diagonal();
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    render::Scene& panel = panels.emplace_back();
-    panel.up = up;
-    panel.surfaces.emplace_back().mesh = &target.mesh();
-    render::Tube& tube = panel.tubes.emplace_back();
-    for (const SurfacePoint& p : curves[i].points) tube.points.push_back(target.position(p));
-    tube.radius = radius;
-    tube.color = kCurveColor;
-    for (const Index k : curves[i].keypoints) {
-      const Vec3 place = target.position(curves[i].points[static_cast<std::size_t>(k)]);
-      panel.tubes.push_back({{place}, 2.0 * radius, kKeypointColor, "", 0.0});
-    }
-    panel.caption = caption_of(i, curves[i]);
-  }
-  render::FigureOptions options;
-  options.one_camera = false;
-  options.columns = 5;
-  options.panel.width = 360;
-  options.panel.height = 320;
-  return render::write_png(render::figure(panels, {}, options));
-}
 
 void set_range(const std::vector<double>& given, double unit, double& least, double& most) {
   if (given.empty()) return;
@@ -84,29 +48,29 @@ void set_range(const std::vector<double>& given, double unit, double& least, dou
 }
 
 void run_targets(const TargetsArguments& args) {
-  const auto output_lock = files::OutputLock::of_file(args.out);
-  study::TargetSampling sampling = args.sampling;
+  const auto output_lock = OutputLock::of_file(args.out);
+  TargetSampling sampling = args.sampling;
   set_range(args.k_g, 1.0, sampling.least_k_g, sampling.most_k_g);
   set_range(args.k_n_deg, kDegree, sampling.least_k_n_rad, sampling.most_k_n_rad);
-  const NamedMesh named = load_mesh(args.mesh);
-  const spatial::Target target = make_target(named, args.target);
+  const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
+  const Target target = make_target(named, args.target, terminal_monitor());
   const double scale = args.scale > 0.0 ? args.scale : named.metres_per_unit;
   // A technique that needs the bake stands for the splines, which do.
-  const technique::TechniqueInfo* needs = &technique::find_technique("mimicry");
-  const PreparedCanvas prepared(target, std::span(&needs, 1), args.embedding);
+  const TechniqueInfo* needs = &find_technique("mimicry");
+  const Canvas canvas =
+      make_canvas(target, std::span(&needs, 1), terminal_monitor(), args.embedding);
 
-  study::SampledTargets sampled;
+  SampledTargets sampled;
   {
     ProgressLine line("sampling");
-    sampled =
-        study::sample_targets(*prepared.canvas().projector, scale, args.count, sampling,
-                              Random(args.seed), [&](const Progress& progress) {
-                                line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
-                                return true;
-                              });
+    sampled = sample_targets(canvas.projector, scale, args.count, sampling, Random(args.seed),
+                             [&](const Progress& progress) {
+                               line.update(static_cast<std::size_t>(100 * progress.fraction), 100);
+                               return true;
+                             });
   }
-  study::TargetShape shape;
-  shape.name = args.name.empty() ? std::filesystem::path(named.name).stem().string() : args.name;
+  TargetShape shape;
+  shape.name = args.name.empty() ? file_stem(named.name) : args.name;
   shape.scale = scale;
   shape.curves = sampled.curves;
   const std::string note = "Target curves on " + named.name + " (" +
@@ -116,21 +80,21 @@ void run_targets(const TargetsArguments& args) {
                            "corners; keypoints: numbers "
                            "of the curve's points; scale: metres per mesh unit. seed " +
                            std::to_string(args.seed) + ".";
-  const std::string text = io::write_targets({{shape}}, note);
+  const std::string text = write_targets({{shape}}, note);
   std::string picture = args.picture;
-  if (picture.empty()) picture = std::filesystem::path(args.out).replace_extension(".png").string();
-  const std::string sheet =
-      args.no_picture
-          ? ""
-          : contact_sheet(target, shape.curves, args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY());
-  files::write_file_atomically(args.out, text);
-  const study::SamplingCounts& n = sampled.counts;
+  if (picture.empty()) picture = to_text(to_path(args.out).replace_extension(".png"));
+  std::optional<std::string> sheet;
+  if (!args.no_picture)
+    sheet = contact_sheet(target, shape.curves, args.up == "z" ? Vec3::UnitZ() : Vec3::UnitY());
+  write_file_atomically(args.out, text);
+  const SamplingCounts& n = sampled.counts;
   std::printf(
       "%s: %zu curves; refused: %zu that met themselves, %zu that jumped, %zu without room "
       "for their controls\n",
       args.out.c_str(), n.accepted, n.self_crossing, n.jumps, n.no_controls);
   if (args.no_picture) return;
-  files::write_file_atomically(picture, sheet);
+  if (!sheet) return complain("this build makes no pictures: the curves are there, without theirs");
+  write_file_atomically(picture, *sheet);
   std::printf("%s\n", picture.c_str());
 }
 

@@ -14,27 +14,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const technique::TechniqueInfo& info) {
-  const technique::Options defaults;
+Json to_json(const TechniqueInfo& info) {
   Json options = Json::array();
-  for (const technique::OptionInfo& o : info.options) {
-    const auto values = o.get(defaults);
+  for (const OptionInfo& o : info.options) {
+    const auto values = option_value(info, o, {});
     options.push_back({{"name", o.name},
+                       {"kind", kind_name(o.kind)},
                        {"unit", o.unit},
                        {"description", o.description},
                        {"default", std::vector<double>(values.begin(), values.end())},
                        {"lowest", o.lowest},
                        {"highest", o.highest}});
+    if (!o.choices.empty()) options.back()["choices"] = o.choices;
   }
-  return {{"name", info.name},         {"description", info.description}, {"paper", info.source},
-          {"anchored", info.anchored}, {"needs_bake", info.needs_bake},   {"options", options}};
+  char color[8];
+  std::snprintf(color, sizeof color, "#%06x", static_cast<unsigned>(info.color));
+  return {{"name", info.name},
+          {"title", info.title},
+          {"sentence", info.sentence},
+          {"description", info.description},
+          {"paper", info.source},
+          {"color", color},
+          {"steering", info.steering == Steering::aims ? "aims" : "moves"},
+          {"anchored", info.anchored},
+          {"needs_bake", info.needs_bake},
+          {"options", options}};
 }
 
 void print_text() {
   std::vector<std::vector<std::string>> rows;
-  for (const technique::TechniqueInfo& info : technique::techniques()) {
+  for (const TechniqueInfo& info : techniques()) {
     std::string options;
-    for (const technique::OptionInfo& o : info.options)
+    for (const OptionInfo& o : info.options)
       options += (options.empty() ? "" : " ") + std::string(o.name);
     rows.push_back({std::string(info.name), info.needs_bake ? "yes" : "no",
                     options.empty() ? "-" : options, std::string(info.description)});
@@ -51,8 +62,7 @@ void add_techniques(CLI::App& app, int&) {
   command->callback([json] {
     if (!*json) return print_text();
     Json list = Json::array();
-    for (const technique::TechniqueInfo& info : technique::techniques())
-      list.push_back(to_json(info));
+    for (const TechniqueInfo& info : techniques()) list.push_back(to_json(info));
     std::printf("%s\n", json_text(list).c_str());
   });
 }

@@ -2,13 +2,12 @@
 #include <numbers>
 #include <optional>
 
-#include <mimicry/curve/curvature.h>
-#include <mimicry/geodesic/site.h>
+#include <mimicry/curve/projected_curve.h>
 
-namespace mimicry::curve {
+#include "geodesic/site.h"
+
+namespace mimicry {
 namespace {
-
-using geodesic::Site;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -37,7 +36,7 @@ class Turns {
   Deviation at(const SurfacePoint& p, Index face_in, const Vec3& in, Index face_out,
                const Vec3& out) const {
     if (in.squaredNorm() == 0.0 || out.squaredNorm() == 0.0) return {NodeUse::undefined};
-    const Site site = geodesic::site_of(mesh_, p);
+    const Site site = site_of(mesh_, p);
     if (site.kind == Site::Kind::vertex) return at_vertex(site.index, face_in, in, face_out, out);
     if (face_in == face_out) {
       const double angle = signed_angle(in, out, face_normal_or_zero(face_in));
@@ -102,8 +101,9 @@ class Turns {
 
 }  // namespace
 
-CurveCurvature curvature(const RefinedCurve& curve, const TriangleMesh& mesh,
-                         const HalfEdges& half_edges) {
+CurveCurvature curvature(const RefinedCurve& curve, const Surface& surface) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   const std::size_t count = curve.nodes.size();
   CurveCurvature result;
   result.uses.assign(count, NodeUse::end);
@@ -138,4 +138,4 @@ CurveCurvature curvature(const RefinedCurve& curve, const TriangleMesh& mesh,
   return result;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -1,23 +1,22 @@
-#include <mimicry/curve/curve_builder.h>
+#include "curve/curve_builder.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 
-PieceKind kind_of(geodesic::PathLabel label) {
+PieceKind kind_of(PathLabel label) {
   switch (label) {
-    case geodesic::PathLabel::same_face:
+    case PathLabel::same_face:
       return PieceKind::same_face;
-    case geodesic::PathLabel::shortest:
+    case PathLabel::shortest:
       return PieceKind::shortest;
-    case geodesic::PathLabel::locally_shortest:
+    case PathLabel::locally_shortest:
       return PieceKind::locally_shortest;
-    case geodesic::PathLabel::disconnected:
+    case PathLabel::disconnected:
       return PieceKind::chord;
   }
   return PieceKind::chord;
 }
 
-CurveBuilder::CurveBuilder(const TriangleMesh& mesh, const HalfEdges& half_edges)
-    : paths_(mesh, half_edges) {}
+CurveBuilder::CurveBuilder(const Surface& surface) : paths_(surface) {}
 
 void CurveBuilder::clear() {
   curve_.points.clear();
@@ -48,7 +47,7 @@ void CurveBuilder::append(const CurvePoint& point) {
 Piece CurveBuilder::join(const CurvePoint& from, const CurvePoint& to) {
   Piece piece;
   piece.first_crossing = static_cast<std::uint32_t>(curve_.crossings.size());
-  const geodesic::LocalPath path = paths_.find(from.surface, to.surface, curve_.crossings);
+  const LocalPath path = paths_.find(from.surface, to.surface, curve_.crossings);
   piece.kind = kind_of(path.label);
   piece.length =
       piece.kind == PieceKind::chord ? (to.position - from.position).norm() : path.length;
@@ -56,4 +55,4 @@ Piece CurveBuilder::join(const CurvePoint& from, const CurvePoint& to) {
   return piece;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

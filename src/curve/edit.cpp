@@ -5,12 +5,13 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curve_builder.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/geodesic/along.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+#include "curve/curve_builder.h"
+#include "geodesic/along.h"
+
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kReportEvery = 16;  // points: some milliseconds where paths are long
@@ -46,19 +47,19 @@ double squared_distance(const Vec3& x, const std::vector<Vec3>& polyline) {
 
 }  // namespace
 
-Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& half_edges) {
-  if (curve.closed) return {true, geodesic::PathLabel::same_face};
+Closing close(ProjectedCurve& curve, const Surface& surface) {
+  if (curve.closed) return {true, PathLabel::same_face};
   if (curve.points.size() < 2) return {};
   const CurvePoint& first = curve.points.front();
   const CurvePoint& last = curve.points.back();
   if (same_point(first, last)) {
     curve.closed = true;
-    return {true, geodesic::PathLabel::same_face};
+    return {true, PathLabel::same_face};
   }
   const auto begin = static_cast<std::uint32_t>(curve.crossings.size());
-  const geodesic::LocalPath path = geodesic::LocalPathFinder(mesh, half_edges)
-                                       .find(last.surface, first.surface, curve.crossings);
-  if (path.label == geodesic::PathLabel::disconnected) return {};
+  const LocalPath path =
+      LocalPathFinder(surface).find(last.surface, first.surface, curve.crossings);
+  if (path.label == PathLabel::disconnected) return {};
   curve.pieces.push_back({kind_of(path.label), path.length, begin,
                           static_cast<std::uint32_t>(curve.crossings.size()) - begin});
   CurvePoint joint = first;
@@ -69,9 +70,11 @@ Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& 
   return {true, path.label};
 }
 
-ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                      const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
+ProjectedCurve smooth(const ProjectedCurve& curve, const Surface& surface,
                       const SmoothOptions& options, const ProgressCallback& progress) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
+  const std::span<const Vec3> vertex_normals = surface.vertex_normals();
   if (!(options.strength >= 0.0 && options.strength <= 1.0))
     throw Error(ErrorKind::invalid_input,
                 "smoothing: strength " + std::to_string(options.strength) + " is not in 0 to 1");
@@ -81,18 +84,18 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
                     std::to_string(SmoothOptions::kMostIterations) + " are possible");
   if (options.strength == 0.0) return curve;
 
-  geodesic::LocalPathFinder paths(mesh, half_edges);
+  LocalPathFinder paths(surface);
   std::vector<Crossing> crossings;
   const auto between = [&](const SurfacePoint& a, const SurfacePoint& b,
                            double t) -> std::pair<bool, SurfacePoint> {
     crossings.clear();
-    if (paths.find(a, b, crossings).label == geodesic::PathLabel::disconnected) return {false, a};
-    return {true, geodesic::point_along(mesh, half_edges, a, crossings, b, t)};
+    if (paths.find(a, b, crossings).label == PathLabel::disconnected) return {false, a};
+    return {true, point_along(mesh, half_edges, a, crossings, b, t)};
   };
 
   const std::size_t count = curve.points.size();
   ProjectedCurve smoothed = curve;
-  CurveBuilder builder(mesh, half_edges);
+  CurveBuilder builder(surface);
   std::vector<CurvePoint> moved;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     moved = smoothed.points;
@@ -131,9 +134,9 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
   return smoothed;
 }
 
-ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                        const HalfEdges& half_edges, double tolerance,
+ProjectedCurve simplify(const ProjectedCurve& curve, const Surface& surface, double tolerance,
                         const ProgressCallback& progress) {
+  const TriangleMesh& mesh = surface.mesh();
   if (!(tolerance >= 0.0 && tolerance < kInfinity))
     throw Error(ErrorKind::invalid_input, "simplifying: tolerance " + std::to_string(tolerance) +
                                               " is not a length of 0 or more");
@@ -147,7 +150,7 @@ ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
     runs.push_back({begin, end});
     begin = end + 1;
   }
-  geodesic::LocalPathFinder paths(mesh, half_edges);
+  LocalPathFinder paths(surface);
   std::vector<Crossing> crossings;
   std::vector<Vec3> polyline;
   while (!runs.empty()) {
@@ -171,7 +174,7 @@ ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
     runs.push_back({farthest, end});
   }
   // The builder finds the same paths again.
-  CurveBuilder builder(mesh, half_edges);
+  CurveBuilder builder(surface);
   for (std::size_t i = 0; i < count; ++i) {
     if (!kept[i]) continue;
     if (i > 0 && curve.pieces[i - 1].kind == PieceKind::gap) builder.break_here();
@@ -182,4 +185,4 @@ ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
   return simplified;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -1,7 +1,7 @@
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+namespace mimicry {
 
 double length(const ProjectedCurve& curve) {
   double sum = 0.0;
@@ -41,4 +41,4 @@ void follow(ProjectedCurve& curve, const TriangleMesh& mesh, std::span<const Vec
   }
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

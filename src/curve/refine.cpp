@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/curve/refine.h>
-#include <mimicry/geodesic/site.h>
+#include <mimicry/curve/projected_curve.h>
 
-namespace mimicry::curve {
+#include "geodesic/site.h"
+
+namespace mimicry {
 namespace {
-
-using geodesic::Site;
 
 SurfacePoint snapped(const SurfacePoint& p) {
   SurfacePoint q = p;
@@ -26,7 +25,7 @@ struct Place {
 };
 
 Place place_of(const TriangleMesh& mesh, const SurfacePoint& p) {
-  const Site site = geodesic::site_of(mesh, p);
+  const Site site = site_of(mesh, p);
   if (site.kind != Site::Kind::edge) return {site.kind, site.index, kNone, 0.0};
   const Face& face = mesh.face(p.face);
   const auto k = static_cast<std::size_t>(HalfEdges::corner(site.index));
@@ -66,7 +65,7 @@ class Refiner {
   void add() {
     RefinedNode& last = refined_.nodes.back();
     if (same_place(mesh_, last.point, snapped_)) return;
-    const Index face = geodesic::shared_face(mesh_, half_edges_, last.point, snapped_);
+    const Index face = shared_face(mesh_, half_edges_, last.point, snapped_);
     if (face == kNone) {
       part();
       return;
@@ -120,9 +119,10 @@ class Refiner {
 
 }  // namespace
 
-RefinedCurve refine(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                    const HalfEdges& half_edges) {
+RefinedCurve refine(const ProjectedCurve& curve, const Surface& surface) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   return Refiner(mesh, half_edges).run(curve);
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

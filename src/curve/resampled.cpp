@@ -2,12 +2,13 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curve_builder.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/curve/sample.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+#include "curve/curve_builder.h"
+
+namespace mimicry {
 
 ProjectedCurve slice(const ProjectedCurve& curve, std::size_t first, std::size_t end) {
   if (first >= end || end > curve.points.size())
@@ -29,23 +30,24 @@ ProjectedCurve slice(const ProjectedCurve& curve, std::size_t first, std::size_t
   return part;
 }
 
-ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                         const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                         std::size_t count, const ProgressCallback& progress) {
+ProjectedCurve resampled(const ProjectedCurve& curve, const Surface& surface, std::size_t count,
+                         const ProgressCallback& progress) {
+  const TriangleMesh& mesh = surface.mesh();
+  const std::span<const Vec3> vertex_normals = surface.vertex_normals();
   if (count < 2 || count > kMostResampledPoints || curve.points.empty())
     throw Error(ErrorKind::invalid_input, "a curve of " + std::to_string(curve.points.size()) +
                                               " points cannot be resampled to " +
                                               std::to_string(count) + "; it takes 2 to " +
                                               std::to_string(kMostResampledPoints));
-  const RefinedCurve refined = refine(curve, mesh, half_edges);
+  const RefinedCurve refined = refine(curve, surface);
   std::vector<double> lengths;  // at each point
   for (const std::size_t node : refined.point_nodes) lengths.push_back(refined.nodes[node].length);
   const double step = refined.nodes.back().length / static_cast<double>(count - 1);
 
-  CurveBuilder builder(mesh, half_edges);
+  CurveBuilder builder(surface);
   builder.reserve(count);
   std::size_t before = 0;  // the last point at or before the sample
-  const std::vector<SurfacePoint> samples = resample(curve, mesh, half_edges, count);
+  const std::vector<SurfacePoint> samples = resample(curve, surface, count);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i % 64 == 0) report(progress, "resample", double(i) / double(count));
     const double s = i + 1 == count ? lengths.back() : step * static_cast<double>(i);
@@ -67,4 +69,4 @@ ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
   return result;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cassert>
 
-#include <mimicry/curve/sample.h>
-#include <mimicry/geodesic/site.h>
+#include <mimicry/curve/projected_curve.h>
 
-namespace mimicry::curve {
+#include "geodesic/site.h"
+
+namespace mimicry {
 
 SurfacePoint point_at_length(const RefinedCurve& curve, const TriangleMesh& mesh, double s) {
   assert(!curve.nodes.empty());
@@ -17,22 +18,23 @@ SurfacePoint point_at_length(const RefinedCurve& curve, const TriangleMesh& mesh
                        [](const RefinedNode& node, double length) { return node.length < length; });
   const auto i = static_cast<std::size_t>(after - nodes.begin()) - 1;
   const Index face = curve.faces[i];
-  const SurfacePoint from = geodesic::in_face(mesh, nodes[i].point, face);
-  const SurfacePoint to = geodesic::in_face(mesh, nodes[i + 1].point, face);
+  const SurfacePoint from = in_face(mesh, nodes[i].point, face);
+  const SurfacePoint to = in_face(mesh, nodes[i + 1].point, face);
   const double t = (s - nodes[i].length) / (nodes[i + 1].length - nodes[i].length);
   return {face, (1.0 - t) * from.bary + t * to.bary};
 }
 
-SurfacePoint point_at_length(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                             const HalfEdges& half_edges, double s) {
-  return point_at_length(refine(curve, mesh, half_edges), mesh, s);
+SurfacePoint point_at_length(const ProjectedCurve& curve, const Surface& surface, double s) {
+  const TriangleMesh& mesh = surface.mesh();
+  return point_at_length(refine(curve, surface), mesh, s);
 }
 
-std::vector<SurfacePoint> resample(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                                   const HalfEdges& half_edges, std::size_t count) {
+std::vector<SurfacePoint> resample(const ProjectedCurve& curve, const Surface& surface,
+                                   std::size_t count) {
+  const TriangleMesh& mesh = surface.mesh();
   std::vector<SurfacePoint> points;
   if (curve.points.empty() || count == 0) return points;
-  const RefinedCurve refined = refine(curve, mesh, half_edges);
+  const RefinedCurve refined = refine(curve, surface);
   const double length = refined.nodes.back().length;
   points.reserve(count);
   points.push_back(curve.points.front().surface);
@@ -43,4 +45,4 @@ std::vector<SurfacePoint> resample(const ProjectedCurve& curve, const TriangleMe
   return points;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

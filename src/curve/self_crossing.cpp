@@ -1,12 +1,13 @@
+#include "curve/self_crossing.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <vector>
 
-#include <mimicry/curve/self_crossing.h>
-#include <mimicry/geodesic/site.h>
+#include "geodesic/site.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 namespace {
 
 // Touching counts: areas below this (of the face's own coordinates) are none.
@@ -54,16 +55,16 @@ std::optional<std::pair<std::size_t, std::size_t>> self_crossing(const RefinedCu
   std::vector<Segment> segments;
   std::map<Index, std::size_t> at_vertex;
   for (std::size_t i = 0; i < count; ++i) {
-    const geodesic::Site site = geodesic::site_of(mesh, curve.nodes[i].point);
+    const Site site = site_of(mesh, curve.nodes[i].point);
     // In two faces that share but the vertex, segments through it have no face in common.
-    if (site.kind == geodesic::Site::Kind::vertex && !(curve.closed && i + 1 == count)) {
+    if (site.kind == Site::Kind::vertex && !(curve.closed && i + 1 == count)) {
       const auto [place, is_new] = at_vertex.try_emplace(site.index, i);
       if (!is_new) found(place->second, i);
     }
     const Index face = curve.faces[i];
     if (face == kNone || i + 1 >= count) continue;
-    const Vec3 from = geodesic::in_face(mesh, curve.nodes[i].point, face).bary;
-    const Vec3 to = geodesic::in_face(mesh, curve.nodes[i + 1].point, face).bary;
+    const Vec3 from = in_face(mesh, curve.nodes[i].point, face).bary;
+    const Vec3 to = in_face(mesh, curve.nodes[i + 1].point, face).bary;
     segments.push_back({face, i, from.tail<2>(), to.tail<2>()});
   }
   std::stable_sort(segments.begin(), segments.end(),
@@ -80,4 +81,4 @@ std::optional<std::pair<std::size_t, std::size_t>> self_crossing(const RefinedCu
   return first;
 }
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -3,10 +3,11 @@
 #include <utility>
 
 #include <mimicry/embedding/embedding.h>
-#include <mimicry/phong/phong_surface.h>
-#include <mimicry/spatial/leaf_order.h>
 
-namespace mimicry::embedding {
+#include "phong/phong_surface.h"
+#include "spatial/leaf_order.h"
+
+namespace mimicry {
 namespace {
 
 // Mixes one word into the state: multiply and fold, after the finaliser of MurmurHash3.
@@ -44,10 +45,10 @@ void sort_for_search(Embedding& e) {
   }
   std::vector<std::array<Index, 4>> sorted;
   sorted.reserve(e.tets.size());
-  for (const Index tet : spatial::leaf_order<3>(centres, e.overlapping_tets))
+  for (const Index tet : leaf_order<3>(centres, e.overlapping_tets))
     sorted.push_back(e.tets[static_cast<std::size_t>(tet)]);
   e.tets = std::move(sorted);
-  e.face_order = phong::face_order(e.faces, e.values, e.dimension);
+  e.face_order = face_order(e.faces, e.values, e.dimension);
 }
 
 std::uint64_t content_hash(const TriangleMesh& mesh) {
@@ -60,4 +61,4 @@ std::uint64_t content_hash(const TriangleMesh& mesh) {
   return state;
 }
 
-}  // namespace mimicry::embedding
+}  // namespace mimicry

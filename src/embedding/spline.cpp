@@ -1,11 +1,11 @@
+#include "embedding/spline.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include <mimicry/embedding/spline.h>
-
-namespace mimicry::embedding {
+namespace mimicry {
 namespace {
 
 using Weights = std::array<double, 4>;
@@ -88,4 +88,4 @@ std::vector<SmoothPoint> clamped_b_spline_curve(const SmoothProjector& projector
   });
 }
 
-}  // namespace mimicry::embedding
+}  // namespace mimicry

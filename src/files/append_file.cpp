@@ -1,32 +1,28 @@
-#include <fcntl.h>
-#include <sys/stat.h>
-
-#include <mimicry/files/append_file.h>
+#include "files/append_file.h"
 
 #include "files/system.h"
 
-namespace mimicry::files {
+namespace mimicry {
 
 AppendFile::AppendFile(const std::string& path, std::size_t size)
     : path_(path), size_(size), synced_(size) {
-  // Without waiting for the other end of what may be a pipe.
-  Descriptor file(open_file(path, O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK));
-  struct stat status = {};
+  Descriptor file(open_to_append(path));
+  FileStatus status;
   if (!file) {
     const int error = errno;
-    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-      fail_kind(path, status.st_mode);
+    const Kind kind = kind_of(path);
+    if (kind != Kind::none && kind != Kind::file) fail_kind(path, kind);
     fail(path, "cannot be written", error);
   }
-  if (::fstat(file.get(), &status) != 0) fail(path, "cannot be written", errno);
-  if (!S_ISREG(status.st_mode)) fail_kind(path, status.st_mode);
-  if (::ftruncate(file.get(), static_cast<off_t>(size)) != 0) fail(path, "cannot be cut", errno);
+  if (!status_of(file.get(), status)) fail(path, "cannot be written", errno);
+  if (status.kind != Kind::file) fail_kind(path, status.kind);
+  if (!cut(file.get(), size)) fail(path, "cannot be cut", errno);
   if (!sync_folder_of(path)) fail(path, "cannot be written", errno);
   file_ = std::make_unique<Descriptor>(std::move(file));
 }
 
 AppendFile::~AppendFile() {
-  if (size_ != synced_) (void)!::ftruncate(file_->get(), static_cast<off_t>(synced_));
+  if (size_ != synced_) (void)cut(file_->get(), synced_);
 }
 
 void AppendFile::append(std::string_view bytes) {
@@ -36,8 +32,8 @@ void AppendFile::append(std::string_view bytes) {
 
 void AppendFile::sync() {
   if (size_ == synced_) return;
-  if (::fsync(file_->get()) != 0) fail(path_, "cannot be written", errno);
+  if (!mimicry::sync(file_->get())) fail(path_, "cannot be written", errno);
   synced_ = size_;
 }
 
-}  // namespace mimicry::files
+}  // namespace mimicry

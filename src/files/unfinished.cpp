@@ -4,12 +4,10 @@
 #include <atomic>
 #include <cstring>
 
-#include <time.h>
-#include <unistd.h>
+#include "files/file.h"
+#include "files/system.h"
 
-#include <mimicry/files/file.h>
-
-namespace mimicry::files {
+namespace mimicry {
 namespace {
 
 enum State : int { kFree, kNaming, kMaking, kMade };
@@ -35,7 +33,7 @@ Unfinished::Unfinished(const std::string& path) {
   std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
   slot.state = kMaking;
   // Either this sees that the program ends, or the one who ends it sees the name.
-  while (ending) ::pause();
+  if (ending) wait_for_end();
 }
 
 void Unfinished::made() noexcept {
@@ -53,13 +51,12 @@ void remove_unfinished() noexcept {
     bool making = false;
     for (const Slot& slot : slots) making = making || slot.state == kMaking;
     if (!making) break;
-    const timespec millisecond{0, 1'000'000};
-    ::nanosleep(&millisecond, nullptr);
+    sleep_ms(1);
   }
   // Files first: a folder goes when nothing is in it.
-  for (const auto remove : {::unlink, ::rmdir})
+  for (const auto remove : {remove_file, remove_folder})
     for (const Slot& slot : slots)
       if (slot.state == kMaking || slot.state == kMade) remove(slot.path.data());
 }
 
-}  // namespace mimicry::files
+}  // namespace mimicry

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace mimicry::files {
+namespace mimicry {
 
 /// A name in a folder that must not outlive the program, of a file or of a folder that is empty:
 /// `remove_unfinished` removes it until this is destroyed. Made before the file is. The names stand
@@ -21,4 +21,4 @@ class Unfinished {
   int slot_ = -1;
 };
 
-}  // namespace mimicry::files
+}  // namespace mimicry

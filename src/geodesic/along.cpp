@@ -1,7 +1,8 @@
-#include <mimicry/geodesic/along.h>
-#include <mimicry/geodesic/site.h>
+#include "geodesic/along.h"
 
-namespace mimicry::geodesic {
+#include "geodesic/site.h"
+
+namespace mimicry {
 
 SurfacePoint point_along(const TriangleMesh& mesh, const HalfEdges& half_edges,
                          const SurfacePoint& from, std::span<const Crossing> crossings,
@@ -32,4 +33,4 @@ SurfacePoint point_along(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return to;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -1,15 +1,17 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/along.h>
-#include <mimicry/geodesic/bezier.h>
-#include <mimicry/geodesic/site.h>
+#include <mimicry/geodesic/paths.h>
 
-namespace mimicry::geodesic {
+#include "geodesic/along.h"
+#include "geodesic/site.h"
 
-BezierCurve bezier(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                   std::span<const SurfacePoint> controls, std::size_t count,
-                   const LocalPathOptions& options) {
+namespace mimicry {
+
+BezierCurve bezier(const Surface& surface, std::span<const SurfacePoint> controls,
+                   std::size_t count, const LocalPathOptions& options) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   if (controls.empty())
     throw Error(ErrorKind::invalid_input, "Bezier curve: no control points; give one or more");
   if (count < 2)
@@ -19,7 +21,7 @@ BezierCurve bezier(const TriangleMesh& mesh, const HalfEdges& half_edges,
     check_surface_point(mesh, controls[i], "control point " + std::to_string(i));
 
   BezierCurve curve;
-  LocalPathFinder paths(mesh, half_edges);
+  LocalPathFinder paths(surface);
   const auto find = [&](const SurfacePoint& a, const SurfacePoint& b,
                         std::vector<Crossing>& crossings) {
     const PathLabel label = paths.find(a, b, crossings, options).label;
@@ -52,4 +54,4 @@ BezierCurve bezier(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return curve;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

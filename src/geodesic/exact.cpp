@@ -8,7 +8,7 @@
 #include "geodesic/exact_state.h"
 #include "geodesic/plane.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 // Relative differences of distances below this are rounding.
 static constexpr double kSameWindow = 1e-12;
@@ -386,7 +386,12 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   if (!options.targets.empty()) watched_changed = true;
 
   bool stopped = false;
+  std::size_t turns = 0;
+  // What a search usually takes; difficult meshes stay at the end for a while.
+  const double usual = 20.0 * mesh.face_count();
   while (!heap.empty()) {
+    if (options.progress && ++turns % 4096 == 0)
+      report(options.progress, "distances", std::min(1.0, static_cast<double>(made) / usual));
     if (watched_changed) {
       stop = std::min(options.radius, farthest_target());
       watched_changed = false;
@@ -415,4 +420,4 @@ void ExactGeodesics::State::compute(std::span<const Source> new_sources,
   known = stopped ? stop : kInfinity;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -3,7 +3,7 @@
 
 #include "geodesic/exact_state.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 // Ways whose lengths differ relatively by less are one, and the one over a vertex is taken: it
 // cannot lead around the vertex without coming nearer.
@@ -162,8 +162,7 @@ ExactPath ExactGeodesics::State::path_to(const SurfacePoint& target) const {
   return path;
 }
 
-ExactGeodesics::ExactGeodesics(const TriangleMesh& mesh, const HalfEdges& half_edges)
-    : state_(std::make_unique<State>(mesh, half_edges)) {}
+ExactGeodesics::ExactGeodesics(const Surface& surface) : state_(std::make_unique<State>(surface)) {}
 ExactGeodesics::~ExactGeodesics() = default;
 ExactGeodesics::ExactGeodesics(ExactGeodesics&&) noexcept = default;
 ExactGeodesics& ExactGeodesics::operator=(ExactGeodesics&&) noexcept = default;
@@ -204,4 +203,4 @@ std::size_t ExactGeodesics::memory_bytes() const {
          bytes(s.surface.bends);
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

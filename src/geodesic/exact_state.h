@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/site.h>
 
+#include "geodesic/site.h"
 #include "geodesic/surface_frames.h"
 #include "geodesic/window_lists.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 /// The best way from a point of a face toward a source, one step of it.
 struct Step {
@@ -24,9 +24,10 @@ struct Step {
 };
 
 struct ExactGeodesics::State {
-  State(const TriangleMesh& mesh_in, const HalfEdges& half_edges_in)
-      : mesh(mesh_in), half_edges(half_edges_in), surface(mesh_in, half_edges_in) {}
+  explicit State(const Surface& on)
+      : held(on), mesh(held.mesh()), half_edges(held.half_edges()), surface(mesh, half_edges) {}
 
+  const Surface held;  // keeps alive what the others refer to
   const TriangleMesh& mesh;
   const HalfEdges& half_edges;
   SurfaceFrames surface;
@@ -114,4 +115,4 @@ struct ExactGeodesics::State {
   ExactPath path_to(const SurfacePoint& p) const;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -3,10 +3,11 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+#include "geodesic/site.h"
+
+namespace mimicry {
 namespace {
 
 // What rounding alone takes across a bound is left as it is.
@@ -41,19 +42,18 @@ Vec2 laid(const Vec3& v, const Vec3& x_axis, const Vec3& normal) {
 
 }  // namespace
 
-DiscreteExponentialMap::DiscreteExponentialMap(const TriangleMesh& mesh,
-                                               const HalfEdges& half_edges,
-                                               std::span<const Vec3> vertex_normals)
-    : mesh_(mesh),
-      half_edges_(half_edges),
-      normals_(vertex_normals),
-      stamps_(vertex_normals.size(), 0),
-      states_(vertex_normals.size()),
-      keys_(vertex_normals.size()),
-      from_(vertex_normals.size()),
-      bounds_(vertex_normals.size()),
-      x_axes_(vertex_normals.size()),
-      places_(vertex_normals.size()) {}
+DiscreteExponentialMap::DiscreteExponentialMap(const Surface& surface)
+    : surface_(surface),
+      mesh_(surface_.mesh()),
+      half_edges_(surface_.half_edges()),
+      normals_(surface_.vertex_normals()),
+      stamps_(normals_.size(), 0),
+      states_(normals_.size()),
+      keys_(normals_.size()),
+      from_(normals_.size()),
+      bounds_(normals_.size()),
+      x_axes_(normals_.size()),
+      places_(normals_.size()) {}
 
 template <class Visit>
 void DiscreteExponentialMap::for_each_neighbour(Index vertex, Visit&& visit) const {
@@ -242,4 +242,4 @@ const ExponentialPatch& DiscreteExponentialMap::compute(const SurfacePoint& poin
   return patch_;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -1,10 +1,10 @@
+#include "geodesic/fast_marching.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include <mimicry/geodesic/fast_marching.h>
-
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 // Labels that improve by less than this are left alone.
@@ -147,4 +147,4 @@ void FastMarching::lower(Index source, std::span<double> nearest, Scratch& scrat
     nearest[static_cast<std::size_t>(v)] = labels[static_cast<std::size_t>(v)].distance * unit_;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

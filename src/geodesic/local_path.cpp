@@ -1,26 +1,28 @@
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/geodesic/site.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/path_search.h"
+#include "geodesic/site.h"
 #include "geodesic/strip_path.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 struct LocalPathFinder::State {
-  State(const TriangleMesh& mesh_in, const HalfEdges& half_edges_in)
-      : mesh(mesh_in),
-        half_edges(half_edges_in),
-        search(mesh_in, half_edges_in),
-        strip(mesh_in, half_edges_in) {}
+  explicit State(const Surface& surface)
+      : held(surface),
+        mesh(held.mesh()),
+        half_edges(held.half_edges()),
+        search(mesh, half_edges),
+        strip(mesh, half_edges) {}
 
+  const Surface held;  // keeps alive what the others refer to
   const TriangleMesh& mesh;
   const HalfEdges& half_edges;
   PathSearch search;
   StripPath strip;
 };
 
-LocalPathFinder::LocalPathFinder(const TriangleMesh& mesh, const HalfEdges& half_edges)
-    : state_(std::make_unique<State>(mesh, half_edges)) {}
+LocalPathFinder::LocalPathFinder(const Surface& surface)
+    : state_(std::make_unique<State>(surface)) {}
 LocalPathFinder::~LocalPathFinder() = default;
 LocalPathFinder::LocalPathFinder(LocalPathFinder&&) noexcept = default;
 LocalPathFinder& LocalPathFinder::operator=(LocalPathFinder&&) noexcept = default;
@@ -94,4 +96,4 @@ LocalPath LocalPathFinder::find(const SurfacePoint& from, const SurfacePoint& to
   return path;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -1,8 +1,8 @@
 #include "geodesic/path_search.h"
 
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 // Relative differences below this are rounding.
 static constexpr double kSameLength = 1e-12;
@@ -276,4 +276,4 @@ void PathSearch::append_crossings(std::vector<Crossing>& crossings) {
   std::reverse(crossings.begin() + static_cast<std::ptrdiff_t>(first), crossings.end());
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

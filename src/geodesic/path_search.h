@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <mimicry/geodesic/site.h>
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 
-namespace mimicry::geodesic {
+#include "geodesic/site.h"
+
+namespace mimicry {
 
 /// The exact search of `LocalPathFinder`: windows in the order of a lower bound of the whole path.
 class PathSearch {
@@ -72,4 +73,4 @@ class PathSearch {
   Index best_node_ = kNone;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

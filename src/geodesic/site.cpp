@@ -1,11 +1,12 @@
+#include "geodesic/site.h"
+
 #include <cassert>
 #include <cmath>
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/site.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 int corner_of(const TriangleMesh& mesh, Index face, Index vertex) {
@@ -102,4 +103,4 @@ SurfacePoint vertex_point(const HalfEdges& half_edges, Index vertex) {
   return p;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -3,12 +3,12 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 
 #include "geodesic/plane.h"
+#include "geodesic/site.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 // A path closer to a vertex than this part of the edge passes through it.
@@ -280,9 +280,10 @@ bool is_finite(double x) {
 
 }  // namespace
 
-Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                        const SurfacePoint& from, const Vec3& direction, double length,
-                        std::vector<Crossing>* crossings) {
+Trace trace_straightest(const Surface& surface, const SurfacePoint& from, const Vec3& direction,
+                        double length, std::vector<Crossing>* crossings) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   check_surface_point(mesh, from, "start");
   if (!is_finite(direction.x()) || !is_finite(direction.y()) || !is_finite(direction.z()))
     throw Error(ErrorKind::invalid_input, "straightest geodesic: its direction must be finite");
@@ -292,4 +293,4 @@ Trace trace_straightest(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return Walk(mesh, half_edges, crossings).run(normalised(from), direction, length);
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

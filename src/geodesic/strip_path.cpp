@@ -6,7 +6,7 @@
 
 #include "geodesic/plane.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -285,4 +285,4 @@ void StripPath::append_crossings(std::vector<Crossing>& crossings) const {
   }
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <mimicry/mesh/crossing.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 /// Locally shortest paths: a strip of faces from one point to the other, the shortest path in it by
 /// the funnel algorithm (Lee and Preparata 1984), and the strip moved to the other side of every
@@ -58,4 +57,4 @@ class StripPath {
   double length_ = kInfinity;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -7,7 +7,7 @@
 
 #include <mimicry/base/error.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 // A face without area gets this height relative to its longest edge: above rounding, and far below
 // what a distance shows.
@@ -110,4 +110,4 @@ SurfaceFrames::SurfaceFrames(const TriangleMesh& mesh, const HalfEdges& half_edg
     }
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -6,7 +6,7 @@
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 /// The face of a half-edge laid in the plane: tail at (0, 0), head at (length, 0), the third corner
 /// at (apex_x, apex_y), apex_y > 0.
@@ -39,4 +39,4 @@ struct SurfaceFrames {
   };
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

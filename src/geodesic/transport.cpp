@@ -1,10 +1,11 @@
 #include <cmath>
 #include <numbers>
 
-#include <mimicry/geodesic/site.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 
-namespace mimicry::geodesic {
+#include "geodesic/site.h"
+
+namespace mimicry {
 namespace {
 
 double signed_angle(const Vec3& from, const Vec3& to, const Vec3& normal) {
@@ -114,9 +115,11 @@ bool holds(const TriangleMesh& mesh, const HalfEdges& half_edges, Index face,
 
 }  // namespace
 
-Vec3 parallel_transport(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                        const SurfacePoint& from, std::span<const Crossing> crossings,
-                        const SurfacePoint& to, const Vec3& vector) {
+Vec3 parallel_transport(const Surface& surface, const SurfacePoint& from,
+                        std::span<const Crossing> crossings, const SurfacePoint& to,
+                        const Vec3& vector) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   check_surface_point(mesh, from, "first point");
   check_surface_point(mesh, to, "last point");
   Carrier carrier(mesh, half_edges, from.face, vector);
@@ -156,4 +159,4 @@ Vec3 parallel_transport(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return carrier.vector();
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 // Windows narrower than this part of their edge are dropped: their neighbours' distances, taken
@@ -274,4 +274,4 @@ std::size_t WindowLists::memory_bytes() const {
   return bytes;
 }
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

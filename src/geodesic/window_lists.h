@@ -8,7 +8,7 @@
 
 #include <mimicry/base/types.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 /// Part of an edge from which straight lines run back to one source through the same faces
 /// (Mitchell, Mount and Papadimitriou 1987). Coordinates are along the edge from its tail (x) and
@@ -116,4 +116,4 @@ class WindowLists {
   WindowStack right_;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

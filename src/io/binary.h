@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A number from raw bytes, in the byte order of the file, whatever the machine's.
 template <class T>
@@ -41,4 +41,4 @@ void append_little_endian(std::string& out, T value) {
   for (std::size_t k = 0; k < sizeof(T); ++k) out += static_cast<char>(bits >> 8 * k & 0xff);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

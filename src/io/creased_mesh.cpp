@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 /// Sums of the same faces in another order differ by less.
@@ -115,4 +115,4 @@ CreasedMesh creased_mesh(const TriangleMesh& mesh, double crease_rad) {
   return Creaser(mesh, crease_rad).run();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A mesh as it is shown: a vertex for each normal that its corners have there.
 struct CreasedMesh {
@@ -18,4 +18,4 @@ struct CreasedMesh {
 /// normal of the faces around, and places with more than 256 corners are smooth. O(#F log #F).
 CreasedMesh creased_mesh(const TriangleMesh& mesh, double crease_rad);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

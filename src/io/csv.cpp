@@ -1,16 +1,17 @@
+#include "io/csv.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
-#include <mimicry/io/number.h>
 
 #include "io/json.h"
+#include "io/number.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 struct CsvField {
@@ -128,4 +129,4 @@ CsvTable read_csv(std::string_view bytes, std::string_view name) {
   return table;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
                                                 const TriangleMesh& mesh) {
-  const curve::ProjectedCurve& curve = record.curve;
+  const ProjectedCurve& curve = record.curve;
   if (record.radii.size() != curve.points.size())
     throw Error(ErrorKind::invalid_input, "curve of stroke '" + record.stroke +
                                               "': " + std::to_string(record.radii.size()) +
@@ -20,7 +20,7 @@ std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
                                               " points; give one for each");
   std::vector<std::vector<double>> parts;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    if (i == 0 || curve.pieces[i - 1].kind == curve::PieceKind::gap) {
+    if (i == 0 || curve.pieces[i - 1].kind == PieceKind::gap) {
       parts.emplace_back();
     } else {
       // Linear in arc length between the piece's two points.
@@ -48,13 +48,13 @@ std::vector<Vec3> normals_for_lifts(const CurveSet& set, const TriangleMesh& mes
 
 namespace {
 
-// As `curve::polylines`, each vertex raised.
+// As `polylines`, each vertex raised.
 std::vector<std::vector<Vec3>> raised_polylines(const CurveRecord& record, const TriangleMesh& mesh,
                                                 std::span<const Vec3> normals) {
-  const curve::ProjectedCurve& curve = record.curve;
+  const ProjectedCurve& curve = record.curve;
   std::vector<std::vector<Vec3>> parts;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    if (i == 0 || curve.pieces[i - 1].kind == curve::PieceKind::gap)
+    if (i == 0 || curve.pieces[i - 1].kind == PieceKind::gap)
       parts.emplace_back();
     else
       for (const Crossing& c : curve.piece_crossings(i - 1))
@@ -71,7 +71,7 @@ TubeMesh curve_tubes(const CurveRecord& record, const TriangleMesh& mesh, double
                      std::span<const Vec3> normals) {
   const bool is_raised = record.lift != 0.0 && !normals.empty();
   const auto lines =
-      is_raised ? raised_polylines(record, mesh, normals) : curve::polylines(record.curve, mesh);
+      is_raised ? raised_polylines(record, mesh, normals) : polylines(record.curve, mesh);
   std::vector<std::vector<double>> radii;
   if (!record.radii.empty()) radii = polyline_radii(record, mesh);
   std::vector<Vec3> positions;
@@ -95,4 +95,4 @@ TubeMesh curve_tubes(const CurveRecord& record, const TriangleMesh& mesh, double
   return all;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include <mimicry/io/curves.h>
-#include <mimicry/io/tube_mesh.h>
 
-namespace mimicry::io {
+#include "io/tube_mesh.h"
+
+namespace mimicry {
 
 /// Vertex normals of the mesh where a curve of the set is raised; else nothing.
 std::vector<Vec3> normals_for_lifts(const CurveSet& set, const TriangleMesh& mesh);
@@ -17,4 +18,4 @@ std::vector<Vec3> normals_for_lifts(const CurveSet& set, const TriangleMesh& mes
 TubeMesh curve_tubes(const CurveRecord& record, const TriangleMesh& mesh, double radius,
                      std::span<const Vec3> normals = {});
 
-}  // namespace mimicry::io
+}  // namespace mimicry

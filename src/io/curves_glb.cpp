@@ -2,13 +2,13 @@
 #include <deque>
 #include <utility>
 
-#include <mimicry/io/curves_glb.h>
+#include <mimicry/io/curves.h>
 
 #include "io/creased_mesh.h"
 #include "io/curve_tubes.h"
 #include "io/glb.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using Color = std::array<unsigned char, 3>;
@@ -56,8 +56,8 @@ std::string write_curves_glb_lines(const CurveSet& set, const TriangleMesh& mesh
                                    std::span<const Color> colors) {
   std::deque<std::vector<std::vector<Vec3>>> lines;
   return scene(set, mesh, colors, [&](const CurveRecord& record, GlbPart& part) {
-    part.lines = lines.emplace_back(curve::polylines(record.curve, mesh));
+    part.lines = lines.emplace_back(polylines(record.curve, mesh));
   });
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -2,20 +2,15 @@
 #include <utility>
 
 #include <mimicry/io/curves.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 #include "io/json.h"
 #include "io/json_document.h"
 #include "io/json_text.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using curve::CurvePoint;
-using curve::Piece;
-using curve::PieceKind;
-using curve::ProjectedCurve;
 
 constexpr const char* kCurvesFormat = "mimicry-curves";
 
@@ -67,7 +62,7 @@ void write(JsonText& out, const CurveRecord& record, const TriangleMesh& mesh) {
   out.end('}').key("model_to_world").begin('{');
   out.member("rotation", placed.rotation).member("translation", placed.translation);
   out.member("scale", placed.scale).end('}');
-  out.member("length", curve::length(record.curve)).member("closed", record.curve.closed);
+  out.member("length", length(record.curve)).member("closed", record.curve.closed);
   out.key("points").begin('[');
   for (const CurvePoint& p : record.curve.points) write(out, p, mesh);
   out.end(']').key("pieces").begin('[');
@@ -212,4 +207,4 @@ CurveSet read_curves_json(std::string_view bytes, std::string_view name, const T
   return set;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -6,16 +6,12 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 #include "io/binary.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using curve::CurvePoint;
-using curve::Piece;
-using curve::PieceKind;
 
 // Its first byte begins no text: in UTF-8 it is the middle of a letter.
 constexpr std::string_view kPackedMagic = "\x93mimicry-curves\x01";
@@ -162,13 +158,13 @@ void pass_record(Archive& archive, auto& record) {
 }
 
 // Faces and half-edges by the mesh's own numbers, as in every file.
-void to_source(curve::ProjectedCurve& curve, const TriangleMesh& mesh) {
+void to_source(ProjectedCurve& curve, const TriangleMesh& mesh) {
   for (CurvePoint& p : curve.points) p.surface = source_point(mesh, p.surface);
   for (Crossing& c : curve.crossings) c = source_crossing(mesh, c);
 }
 
 // Throws where the curve cannot be one on the mesh.
-void check_curve(const Unpacker& from, curve::ProjectedCurve& curve, const TriangleMesh& mesh) {
+void check_curve(const Unpacker& from, ProjectedCurve& curve, const TriangleMesh& mesh) {
   const auto beyond = [](Index i, Index count) { return i < 0 || i >= count; };
   for (const CurvePoint& p : curve.points) {
     if (beyond(p.surface.face, mesh.face_count()) || p.frame < 0)
@@ -248,4 +244,4 @@ CurveSet read_curves_packed(std::string_view bytes, std::string_view name,
   return set;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -2,14 +2,14 @@
 #include <limits>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/curves_ply.h>
+#include <mimicry/io/curves.h>
 
 #include "io/binary.h"
 #include "io/curve_tubes.h"
 #include "io/mesh_writers.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::string heading(const std::string& format, const CurveSet& set) {
@@ -60,7 +60,7 @@ std::string write_curves_ply_lines(const CurveSet& set, const TriangleMesh& mesh
     std::string tail;
     for (const unsigned char channel : colors[c]) tail += ' ' + std::to_string(channel);
     tail += ' ' + std::to_string(c) + '\n';
-    for (const auto& part : curve::polylines(set.curves[c].curve, mesh)) {
+    for (const auto& part : polylines(set.curves[c].curve, mesh)) {
       for (std::size_t i = 0; i < part.size(); ++i) {
         append_triple(vertices, part[i]);
         vertices += tail;
@@ -77,4 +77,4 @@ std::string write_curves_ply_lines(const CurveSet& set, const TriangleMesh& mesh
          "\nproperty int vertex1\nproperty int vertex2\nend_header\n" + vertices + edges;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,14 +1,11 @@
 #include <mimicry/io/curves.h>
-#include <mimicry/io/number.h>
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
+#include "io/number.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using curve::CurvePoint;
-using curve::PieceKind;
 
 void append_position(std::string& out, const Vec3& x, char separator) {
   append_double(out, x.x());
@@ -43,7 +40,7 @@ std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh, ObjL
   std::size_t vertex = 1;  // OBJ counts from 1 through the whole file
   for (const CurveRecord& record : set.curves) {
     out += "o " + one_line(record.stroke + " " + record.technique) + "\n";
-    for (const auto& part : curve::polylines(record.curve, mesh)) {
+    for (const auto& part : polylines(record.curve, mesh)) {
       for (const Vec3& x : part) {
         out += "v ";
         append_position(out, x, ' ');
@@ -90,4 +87,4 @@ std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -10,10 +10,8 @@
 
 #include "io/binary.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using embedding::Embedding;
 
 constexpr std::string_view kMagic = "MIMICRY\n";
 constexpr std::size_t kHeader = 32, kEntry = 24, kAlignment = 64;
@@ -259,4 +257,4 @@ Embedding read_embedding(std::string_view bytes, std::string_view name) {
   return e;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,14 +1,15 @@
+#include "io/embedding_text.h"
+
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/embedding_text.h>
 
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kColumns = 8;
@@ -133,13 +134,13 @@ EmbeddingText read_embedding_text(std::string_view bytes, std::string_view name,
   return TextReader(bytes, name).read(corners);
 }
 
-embedding::Embedding make_embedding(EmbeddingText surface, EmbeddingText shell) {
+Embedding make_embedding(EmbeddingText surface, EmbeddingText shell) {
   const auto refuse = [](const std::string& what) {
     throw Error(ErrorKind::invalid_input, "embedding: " + what);
   };
   if (surface.elements.empty()) refuse("the surface has no faces");
   if (shell.elements.empty()) refuse("the shell has no tetrahedra");
-  embedding::Embedding e;
+  Embedding e;
   e.dimension = static_cast<std::int32_t>(kColumns);
   e.options.dimension = e.dimension;
   e.options.samples = 0;
@@ -177,11 +178,11 @@ embedding::Embedding make_embedding(EmbeddingText surface, EmbeddingText shell) 
   for (std::size_t v = 0; v < count; ++v) mean += value(v) / static_cast<double>(count);
   for (std::size_t v = 0; v < e.positions.size(); ++v) value(v) -= mean;
 
-  const TriangleMesh mesh = embedding::mesh_of(e);
-  e.mesh_hash = embedding::content_hash(mesh);
+  const TriangleMesh mesh = mesh_of(e);
+  e.mesh_hash = content_hash(mesh);
   e.diagonal = diagonal(mesh);
-  embedding::sort_for_search(e);
+  sort_for_search(e);
   return e;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// One node of a GLB scene: a mesh or lines.
 struct GlbPart {
@@ -17,6 +17,10 @@ struct GlbPart {
   std::span<const Vec3> normals;               ///< #V unit normals, or empty
   std::optional<std::array<double, 3>> color;  ///< linear, 0 to 1; without one no material
   std::span<const std::vector<Vec3>> lines;    ///< polylines; those of a single point do not count
+  std::span<const std::array<float, 2>> texcoords =
+      {};  ///< #V, v up as in MeshAttributes, or empty
+  std::span<const std::array<float, 4>> vertex_colors = {};  ///< #V, linear, or empty
+  const FaceLabels* materials = nullptr;  ///< a primitive for each run of faces of one material
 };
 
 /// A binary glTF 2.0 file with a node for each part that has faces or lines. Of objects far from
@@ -24,4 +28,4 @@ struct GlbPart {
 /// `write_mesh` does.
 std::string write_glb_scene(std::span<const GlbPart> parts);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

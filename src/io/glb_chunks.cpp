@@ -9,7 +9,7 @@
 #include "io/gltf_json.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::uint32_t kGlbMagic = 0x46546c67;     // "glTF"
@@ -107,4 +107,4 @@ GlbChunks split_glb(std::string_view bytes, std::string_view name,
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The two chunks of a GLB file.
 struct GlbChunks {
@@ -22,4 +22,4 @@ bool is_glb(std::string_view bytes);
 GlbChunks split_glb(std::string_view bytes, std::string_view name,
                     const std::function<void(const std::string&)>& note);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

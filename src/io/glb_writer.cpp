@@ -7,7 +7,7 @@
 #include "io/json.h"
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr int kFloat = 5126;
@@ -68,20 +68,52 @@ struct Scene {
     return close_view(start, kVertices, kFloat, static_cast<Index>(normals.size()), "VEC3");
   }
 
-  std::size_t add_faces(const TriangleMesh& mesh) {
+  template <std::size_t N>
+  std::size_t add_values(std::span<const std::array<float, N>> values, const char* type) {
     const std::size_t start = binary.size();
-    for (const Face& face : mesh.faces())
-      for (const Index v : face) append_little_endian(binary, v);
-    return close_view(start, kIndices, kUnsignedInt, 3 * mesh.face_count(), "SCALAR");
+    for (const auto& value : values)
+      for (const float x : value) append_little_endian(binary, x);
+    return close_view(start, kVertices, kFloat, static_cast<Index>(values.size()), type);
   }
 
-  OrderedJson triangles(const GlbPart& part) {
+  std::size_t add_faces(std::span<const Face> faces) {
+    const std::size_t start = binary.size();
+    for (const Face& face : faces)
+      for (const Index v : face) append_little_endian(binary, v);
+    return close_view(start, kIndices, kUnsignedInt, static_cast<Index>(3 * faces.size()),
+                      "SCALAR");
+  }
+
+  void add_triangles(const GlbPart& part, OrderedJson& primitives) {
     const TriangleMesh& mesh = *part.mesh;
     OrderedJson attributes = {{"POSITION", add_positions(mesh.vertex_count(), [&](Index v) {
                                  return to_single(mesh, v, "GLB", origin);
                                })}};
     if (!part.normals.empty()) attributes["NORMAL"] = add_normals(part.normals);
-    return {{"attributes", attributes}, {"indices", add_faces(mesh)}, {"mode", kTrianglesMode}};
+    if (!part.texcoords.empty()) {
+      std::vector<std::array<float, 2>> down(part.texcoords.begin(), part.texcoords.end());
+      for (auto& uv : down) uv[1] = 1.0f - uv[1];
+      attributes["TEXCOORD_0"] = add_values<2>(down, "VEC2");
+    }
+    if (!part.vertex_colors.empty())
+      attributes["COLOR_0"] = add_values<4>(part.vertex_colors, "VEC4");
+    const std::size_t first_material = materials.size();
+    if (part.materials)
+      for (const std::string& name : part.materials->names) materials.push_back({{"name", name}});
+    const auto material = [&](std::size_t f) {
+      return part.materials ? part.materials->of_face[f] : kNone;
+    };
+    for (std::size_t f = 0; f < mesh.faces().size();) {
+      std::size_t end = f + 1;
+      while (end < mesh.faces().size() && material(end) == material(f)) ++end;
+      OrderedJson primitive = {{"attributes", attributes},
+                               {"indices", add_faces(mesh.faces().subspan(f, end - f))},
+                               {"mode", kTrianglesMode}};
+      if (material(f) != kNone)
+        primitive["material"] = first_material + static_cast<std::size_t>(material(f));
+      primitives.push_back(primitive);
+      f = end;
+    }
   }
 
   OrderedJson line_strip(const std::vector<Vec3>& line) {
@@ -95,7 +127,7 @@ struct Scene {
 
   void add(const GlbPart& part) {
     OrderedJson primitives = OrderedJson::array();
-    if (has_faces(part)) primitives.push_back(triangles(part));
+    if (has_faces(part)) add_triangles(part, primitives);
     for (const auto& line : part.lines)
       if (line.size() > 1) primitives.push_back(line_strip(line));
     if (primitives.empty()) return;
@@ -168,9 +200,4 @@ std::string write_glb_scene(std::span<const GlbPart> parts) {
   return out;
 }
 
-std::string write_glb(const TriangleMesh& mesh) {
-  const GlbPart part{"", &mesh, {}, {}, {}};
-  return write_glb_scene({&part, 1});
-}
-
-}  // namespace mimicry::io
+}  // namespace mimicry

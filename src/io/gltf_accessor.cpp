@@ -7,7 +7,7 @@
 #include "io/binary.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::size_t component_size(int type) {
@@ -45,7 +45,7 @@ double load_component(const char* p, int type, bool normalized) {
 
 std::size_t components_of(std::string_view type) {
   if (type == "SCALAR") return 1;
-  return type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
+  return type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
 }
 
 int component_type_of(const GltfJson& gltf, const Json& object, const std::string& place) {
@@ -161,4 +161,4 @@ double GltfAccessor::at(std::size_t element, std::size_t k) const {
   return load_component(p + component_size(component_type_) * k, component_type_, normalized_);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 #include "io/gltf_buffers.h"
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Component types of accessors.
 constexpr int kGltfByte = 5120;
@@ -26,8 +26,8 @@ constexpr int kGltfFloat = 5126;
 class GltfAccessor {
  public:
   GltfAccessor() = default;
-  /// type: "SCALAR", "VEC3", "VEC4" or "MAT4". user: who needs it, for messages. Throws Error where
-  /// it is of another type or its bytes are not there.
+  /// type: "SCALAR", "VEC2", "VEC3", "VEC4" or "MAT4". user: who needs it, for messages. Throws
+  /// Error where it is of another type or its bytes are not there.
   GltfAccessor(const GltfJson& gltf, GltfBuffers& buffers, std::size_t index, const char* type,
                const std::string& user);
   /// Elements that were decoded elsewhere, packed; `bytes` must outlive this.
@@ -35,6 +35,7 @@ class GltfAccessor {
                int component_type, bool normalized);
 
   std::size_t count() const { return count_; }
+  std::size_t components() const { return components_; }
   bool holds_whole_numbers() const;
   /// Component k of an element, normalized where the accessor says so.
   double at(std::size_t element, std::size_t k) const;
@@ -62,4 +63,4 @@ class GltfAccessor {
 /// What messages call the accessor.
 std::string accessor_place(std::size_t index);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

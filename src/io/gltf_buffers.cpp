@@ -7,7 +7,7 @@
 #include "io/text.h"
 #include "io/uri.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr double kUnfoldedPerByte = 16.0;
@@ -133,4 +133,4 @@ GltfBuffers::View GltfBuffers::view(std::size_t index, const std::string& user) 
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The bytes that accessors lie in. A buffer is looked at when something needs it, once: what no
 /// triangle needs may be missing, empty or broken.
@@ -59,4 +59,4 @@ class GltfBuffers {
   std::map<std::size_t, std::string_view> decompressed_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 #include "io/binary.h"
 #include "io/gltf_accessor.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void fail_without_draco(const GltfJson& gltf, const std::string& place) {
   gltf.fail(place,
@@ -108,21 +108,17 @@ DracoMesh decode_draco(const GltfJson& gltf, std::string_view bytes,
   for (const std::size_t id : ids) {
     const draco::PointAttribute* attribute =
         mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-    if (!attribute)
-      gltf.fail(place, "its compressed form has no attribute " + std::to_string(id) +
-                           "; export the file again");
-    DracoAttribute values;
+    DracoAttribute& values = out.attributes.emplace_back();
+    if (!attribute) continue;
     values.components = static_cast<std::size_t>(attribute->num_components());
     values.component_type = gltf_component_type(attribute->data_type());
-    if (values.component_type == 0)
-      gltf.fail(place, "its compressed form has numbers of a kind that glTF has not");
+    if (values.component_type == 0) continue;
     const auto size =
         values.components * static_cast<std::size_t>(draco::DataTypeLength(attribute->data_type()));
     values.bytes.resize(size * out.points);
     for (std::size_t p = 0; p < out.points; ++p)
       attribute->GetMappedValue(draco::PointIndex(static_cast<std::uint32_t>(p)),
                                 values.bytes.data() + size * p);
-    out.attributes.push_back(std::move(values));
   }
   return out;
 }
@@ -144,4 +140,4 @@ DracoMesh decode_draco(const GltfJson& gltf, std::string_view, const std::vector
 
 #endif
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,7 +7,7 @@
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 // KHR_draco_mesh_compression, by Google's draco where that was found when mimicry was built.
 
@@ -20,9 +20,9 @@ std::size_t draco_face_count(const GltfJson& gltf, std::string_view bytes,
                              const std::string& place);
 
 struct DracoAttribute {
-  std::string bytes;  // packed, an element for each point
-  std::size_t components = 0;
-  int component_type = 0;  // glTF's
+  std::string bytes;           // packed, an element for each point
+  std::size_t components = 0;  // 0: there is no such attribute
+  int component_type = 0;      // glTF's; 0: of a kind that glTF has not, without bytes
 };
 
 struct DracoMesh {
@@ -32,8 +32,8 @@ struct DracoMesh {
 };
 
 /// ids: of the attributes that are wanted, as the bytes number them. Throws Error where the bytes
-/// are damaged or lack one of them.
+/// are damaged.
 DracoMesh decode_draco(const GltfJson& gltf, std::string_view bytes,
                        const std::vector<std::size_t>& ids, const std::string& place);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

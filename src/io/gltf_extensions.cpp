@@ -4,7 +4,7 @@
 #include "io/gltf_json.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 /// What the reader handles, or whose absence it reports where it is met.
@@ -60,4 +60,4 @@ void GltfJson::check_extensions() const {
   }
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -152,4 +152,4 @@ void GltfJson::check_version() const {
          ErrorKind::unsupported);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

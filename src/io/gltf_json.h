@@ -13,7 +13,7 @@
 #include "io/json.h"
 #include "io/json_document.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The JSON of a glTF file. Its members are looked up with checks whose errors name the file, the
 /// place in it and the remedy.
@@ -73,4 +73,4 @@ class GltfJson {
 /// not end or they begin with something else.
 std::size_t json_object_size(std::string_view bytes);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kTriangles = 4;
@@ -13,6 +13,11 @@ constexpr const char* kDraco = "KHR_draco_mesh_compression";
 bool moves_vertices(const std::string& attribute) {
   return attribute == "POSITION" || attribute.rfind("JOINTS_", 0) == 0 ||
          attribute.rfind("WEIGHTS_", 0) == 0;
+}
+
+/// What vertices carry beside their places, and triangles do without.
+bool is_attribute(const std::string& name) {
+  return name == "TEXCOORD_0" || name == "COLOR_0";
 }
 
 /// What a primitive's vertices are made of, as far as it moves them.
@@ -73,6 +78,7 @@ void GltfMesh::add_primitive(const Json& primitive, const std::string& place) {
   }
   GltfPrimitive out;
   out.place = place;
+  out.json = &primitive;
   out.mode = static_cast<int>(mode);
   const Json* draco = GltfJson::extension(primitive, kDraco);
   if (draco && !draco_is_built_in()) {
@@ -172,7 +178,8 @@ void GltfMesh::decode(const Compressed& compressed) {
   std::vector<std::string> used;
   std::vector<std::size_t> ids;
   for (const auto& [name, id] : names->items()) {
-    if (!moves_vertices(name) || !GltfJson::find(accessors, name.c_str())) continue;
+    if (!(moves_vertices(name) || is_attribute(name)) || !GltfJson::find(accessors, name.c_str()))
+      continue;
     used.push_back(name);
     ids.push_back(gltf_.whole(*names, name.c_str(), primitive.place));
   }
@@ -187,18 +194,46 @@ void GltfMesh::decode(const Compressed& compressed) {
   Attributes attributes;
   for (std::size_t k = 0; k < used.size(); ++k) {
     const DracoAttribute& values = mesh.attributes[k];
+    if (is_attribute(used[k])) {
+      keep_attribute(primitive, used[k], values, mesh.points);
+      continue;
+    }
+    if (values.components == 0)
+      gltf_.fail(primitive.place, "its compressed form has no attribute " + std::to_string(ids[k]) +
+                                      "; export the file again");
+    if (values.component_type == 0)
+      gltf_.fail(primitive.place, "its compressed form has numbers of a kind that glTF has not");
     if (values.components != (used[k] == "POSITION" ? 3u : 4u))
       gltf_.fail(primitive.place, "its compressed " + used[k] + " has " +
                                       std::to_string(values.components) + " components");
-    const Json& accessor = gltf_.item(
-        "accessors", gltf_.whole(accessors, used[k].c_str(), primitive.place), primitive.place);
-    const Json* normalized = GltfJson::find(accessor, "normalized");
-    attributes.emplace(
-        used[k], GltfAccessor(values.bytes, mesh.points, values.components, values.component_type,
-                              normalized && *normalized == true));
+    attributes.emplace(used[k], decompressed(primitive, used[k], values, mesh.points));
   }
   vertices_[primitive.vertices] = read_vertices(*compressed.json, attributes, primitive.place);
   primitive.indices.emplace(mesh.corners, primitive.corners, 1, kGltfUnsignedInt, false);
 }
 
-}  // namespace mimicry::io
+GltfAccessor GltfMesh::decompressed(const GltfPrimitive& primitive, const std::string& name,
+                                    const DracoAttribute& values, std::size_t points) const {
+  const Json& accessors = *GltfJson::find(*primitive.json, "attributes");
+  const Json& accessor = gltf_.item(
+      "accessors", gltf_.whole(accessors, name.c_str(), primitive.place), primitive.place);
+  const Json* normalized = GltfJson::find(accessor, "normalized");
+  return {values.bytes, points, values.components, values.component_type,
+          normalized && *normalized == true};
+}
+
+void GltfMesh::keep_attribute(GltfPrimitive& primitive, const std::string& name,
+                              const DracoAttribute& values, std::size_t points) const {
+  const bool is_color = name == "COLOR_0";
+  const bool fits =
+      is_color ? values.components == 3 || values.components == 4 : values.components == 2;
+  if (!fits || values.component_type == 0) {
+    gltf_.note(primitive.place + ": its compressed " + name + " cannot be read and is passed over");
+    primitive.lost.push_back(name);
+    return;
+  }
+  (is_color ? primitive.colors : primitive.texcoords)
+      .emplace(decompressed(primitive, name, values, points));
+}
+
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 #include "io/gltf_accessor.h"
 #include "io/gltf_draco.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Vertices as the file has them, before node, skin and morph weights. Primitives of a mesh that
 /// name the same accessors share them.
@@ -38,6 +38,9 @@ struct GltfPrimitive {
   std::size_t vertices = 0;  // which of the mesh's
   std::size_t corners = 0;
   std::optional<GltfAccessor> indices;  // none: the vertices in order
+  const Json* json = nullptr;
+  std::vector<std::string> lost;                  // attributes whose compressed form cannot be read
+  std::optional<GltfAccessor> texcoords, colors;  // decompressed ones; others stand in the JSON
 
   std::size_t triangles() const;
 };
@@ -73,6 +76,12 @@ class GltfMesh {
   GltfVertices read_vertices(const Json& primitive, const Attributes& decompressed,
                              const std::string& place) const;
   void decode(const Compressed& compressed);
+  /// The values must outlive what is returned.
+  GltfAccessor decompressed(const GltfPrimitive& primitive, const std::string& name,
+                            const DracoAttribute& values, std::size_t points) const;
+  /// Texture coordinates or colours; a note where they cannot be used.
+  void keep_attribute(GltfPrimitive& primitive, const std::string& name,
+                      const DracoAttribute& values, std::size_t points) const;
 
   const GltfJson& gltf_;
   GltfBuffers& buffers_;
@@ -87,4 +96,4 @@ class GltfMesh {
   std::vector<std::unique_ptr<const DracoMesh>> decoded_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

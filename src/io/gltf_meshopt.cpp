@@ -6,7 +6,7 @@
 
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void fail_without_meshopt(const GltfJson& gltf, const std::string& place) {
   gltf.fail(place,
@@ -90,4 +90,4 @@ std::string decode_meshopt(const GltfJson& gltf, const Json&, std::string_view,
 
 #endif
 
-}  // namespace mimicry::io
+}  // namespace mimicry

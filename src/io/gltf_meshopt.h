@@ -5,7 +5,7 @@
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 // EXT_meshopt_compression, by meshoptimizer where that was found when mimicry was built.
 
@@ -17,4 +17,4 @@ bool meshopt_is_built_in();
 std::string decode_meshopt(const GltfJson& gltf, const Json& extension, std::string_view bytes,
                            const std::string& place);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr auto kNoParent = static_cast<std::size_t>(-1);
@@ -136,4 +136,4 @@ std::vector<std::size_t> GltfNodes::shown() const {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 
 #include "io/gltf_json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 using GltfTransform = Eigen::Transform<double, 3, Eigen::AffineCompact>;
 
@@ -44,4 +44,4 @@ class GltfNodes {
   std::vector<GltfTransform> world_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

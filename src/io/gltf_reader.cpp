@@ -7,15 +7,17 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "io/glb_chunks.h"
+#include "io/gltf_attributes.h"
 #include "io/gltf_mesh.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_skin.h"
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
@@ -82,7 +84,11 @@ class GltfReader {
  public:
   GltfReader(MeshBuilder& mesh, const GltfJson& gltf, std::optional<std::string_view> binary,
              std::size_t file_size)
-      : mesh_(mesh), gltf_(gltf), buffers_(gltf, binary, file_size, mesh.options()), nodes_(gltf) {}
+      : mesh_(mesh),
+        gltf_(gltf),
+        buffers_(gltf, binary, file_size, mesh.options()),
+        nodes_(gltf),
+        attributes_(gltf, buffers_, mesh) {}
 
   void read() {
     const std::vector<Use> uses = find_uses();
@@ -186,6 +192,7 @@ class GltfReader {
     std::vector<GltfMorph> own;
     const std::vector<GltfMorph>& moved = morphs(use, mesh, own);
     const std::vector<GltfTransform>* skin = skin_of(use);
+    attributes_.begin_object(use.node, gltf_.item("meshes", use.mesh, use.place));
     for (std::size_t i = 0; i < instances.count(); ++i) {
       const GltfTransform world = use.world * instances.at(i);
       // First vertex and mirroring of what primitives share, once it is there.
@@ -198,6 +205,7 @@ class GltfReader {
           const bool mirrored = add_vertices(vertices, moved, skin, world, primitive.place);
           shared = {first, mirrored};
         }
+        attributes_.begin_material(primitive);
         add_triangles(primitive, mesh.vertices()[primitive.vertices].positions.count(),
                       shared->first, shared->second);
       }
@@ -239,9 +247,19 @@ class GltfReader {
                                         std::to_string(vertex_count) + "; export the file again");
       return first + static_cast<Index>(index);
     };
+    const GltfAttributes::First values = attributes_.add(primitive, vertex_count);
+    std::array<Index, 3> texcoords, colors;
+    const auto numbers = [&](const std::array<Index, 3>& corners, Index first_value,
+                             std::array<Index, 3>& out) -> std::span<const Index> {
+      if (first_value == kNone) return {};
+      for (std::size_t c = 0; c < 3; ++c) out[c] = first_value + (corners[c] - first);
+      return out;
+    };
     const auto add = [&](Index i, Index j, Index k) {
       if (mirrored) std::swap(j, k);
-      mesh_.add_polygon(std::array{i, j, k});
+      const std::array corners = {i, j, k};
+      mesh_.add_polygon(corners, numbers(corners, values.texcoord, texcoords),
+                        numbers(corners, values.color, colors));
     };
     for (std::size_t t = 0; t < primitive.triangles(); ++t) {
       if (primitive.mode == 4) {
@@ -265,6 +283,7 @@ class GltfReader {
   const GltfJson& gltf_;
   GltfBuffers buffers_;
   GltfNodes nodes_;
+  GltfAttributes attributes_;
   std::map<std::size_t, GltfMesh> meshes_;
   std::map<std::size_t, std::vector<GltfTransform>> skins_;
 };
@@ -279,4 +298,4 @@ void read_gltf(std::string_view bytes, MeshBuilder& mesh) {
   GltfReader(mesh, gltf, chunks.binary, bytes.size()).read();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,6 +1,6 @@
 #include "io/gltf_skin.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::vector<GltfTransform> joint_matrices(const GltfJson& gltf, GltfBuffers& buffers,
                                           const GltfNodes& nodes, std::size_t skin,
@@ -55,4 +55,4 @@ GltfTransform skinned(const GltfJson& gltf, const GltfVertices& vertices, std::s
   return sum;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

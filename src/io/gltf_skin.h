@@ -5,7 +5,7 @@
 #include "io/gltf_mesh.h"
 #include "io/gltf_nodes.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The matrices of a skin's joints: world from the joint's node times its inverse bind matrix.
 std::vector<GltfTransform> joint_matrices(const GltfJson& gltf, GltfBuffers& buffers,
@@ -17,4 +17,4 @@ std::vector<GltfTransform> joint_matrices(const GltfJson& gltf, GltfBuffers& buf
 GltfTransform skinned(const GltfJson& gltf, const GltfVertices& vertices, std::size_t v,
                       const std::vector<GltfTransform>& joints, const std::string& place);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

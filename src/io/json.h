@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/float_traps.h>
 #include <mimicry/base/types.h>
-#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/triangle_mesh.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::io {
+#include "base/float_traps.h"
+
+namespace mimicry {
 
 // Reading of typed fields out of a parsed value. Each function throws Error(invalid_input) with
 // `where` and the field's name for a field that is missing or of another kind.
@@ -80,7 +81,7 @@ inline Quat quaternion(const Json& value, const std::string& where) {
 }
 
 /// {"program", "seed", "technique"}, the last only where there is one.
-stroke::Simulation read_simulation(const Json& value, const std::string& where);
-void write_simulation(JsonText& out, const stroke::Simulation& simulation);
+Simulation read_simulation(const Json& value, const std::string& where);
+void write_simulation(JsonText& out, const Simulation& simulation);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 // From the leaves up: the destructor of an array or object takes memory for what is in it.
@@ -139,4 +139,4 @@ JsonDocument::~JsonDocument() {
   empty(root_);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

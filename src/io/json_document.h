@@ -5,7 +5,7 @@
 
 #include "io/json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// More arrays and objects in each other than these are refused.
 inline constexpr int kMostNested = 1000;
@@ -35,4 +35,4 @@ class JsonDocument {
   Json root_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -10,7 +10,7 @@
 
 #include "io/json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// JSON that is written as text at once, without spaces and as Json's dump() writes it. Nothing is
 /// held but the text: where memory ends, `std::bad_alloc` leaves it. (A tree of Json takes memory
@@ -93,4 +93,4 @@ class JsonText {
   bool follows_ = false;  // a value stands before, in the same array or object
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,7 +11,7 @@
 
 #include "io/polygon.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void MeshBuilder::fail_limit(const char* what, std::size_t limit) const {
   throw Error(ErrorKind::unsupported, std::string(name_) + ": more than " + std::to_string(limit) +
@@ -29,20 +29,34 @@ void MeshBuilder::number_polygons() {
   std::iota(polygons_.begin(), polygons_.end(), 0);
 }
 
-void MeshBuilder::add_polygon(std::span<const Index> corners) {
-  if (corners.size() != 3) return add_large_polygon(corners);
+void MeshBuilder::add_polygon(std::span<const Index> corners, std::span<const Index> texcoords,
+                              std::span<const Index> colors) {
+  if (corners.size() != 3) return add_large_polygon(corners, texcoords, colors);
   if (faces_.size() >= options_.max_faces) fail_limit("triangles", options_.max_faces);
   if (!polygons_.empty() || faces_.size() != polygon_count_)
     polygons_.resize(faces_.size() + 1, static_cast<Index>(polygon_count_));
+  if (!texcoords.empty())
+    attributes_.texcoords.set_face(faces_.size(), {texcoords[0], texcoords[1], texcoords[2]});
+  if (!colors.empty())
+    attributes_.colors.set_face(faces_.size(), {colors[0], colors[1], colors[2]});
   faces_.push_back({corners[0], corners[1], corners[2]});
   ++polygon_count_;
 }
 
-void MeshBuilder::add_large_polygon(std::span<const Index> corners) {
+void MeshBuilder::add_large_polygon(std::span<const Index> corners,
+                                    std::span<const Index> texcoords,
+                                    std::span<const Index> colors) {
   kept_.clear();
-  for (const Index corner : corners)
-    if (kept_.empty() || corner != kept_.back()) kept_.push_back(corner);
-  while (kept_.size() > 1 && kept_.back() == kept_.front()) kept_.pop_back();
+  kept_corners_.clear();
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (kept_.empty() || corners[k] != kept_.back()) {
+      kept_.push_back(corners[k]);
+      kept_corners_.push_back(k);
+    }
+  while (kept_.size() > 1 && kept_.back() == kept_.front()) {
+    kept_.pop_back();
+    kept_corners_.pop_back();
+  }
   number_polygons();
   const bool is_line = std::all_of(kept_.begin(), kept_.end(),
                                    [&](Index c) { return c == kept_[0] || c == kept_[1]; });
@@ -55,7 +69,15 @@ void MeshBuilder::add_large_polygon(std::span<const Index> corners) {
   const std::size_t triangles = kept_.size() - 2;
   if (triangles > options_.max_faces || faces_.size() > options_.max_faces - triangles)
     fail_limit("triangles", options_.max_faces);
-  for (std::size_t k = 1; k <= triangles; ++k) faces_.push_back({kept_[0], kept_[k], kept_[k + 1]});
+  for (std::size_t k = 1; k <= triangles; ++k) {
+    const std::size_t c[3] = {kept_corners_[0], kept_corners_[k], kept_corners_[k + 1]};
+    if (!texcoords.empty())
+      attributes_.texcoords.set_face(faces_.size(),
+                                     {texcoords[c[0]], texcoords[c[1]], texcoords[c[2]]});
+    if (!colors.empty())
+      attributes_.colors.set_face(faces_.size(), {colors[c[0]], colors[c[1]], colors[c[2]]});
+    faces_.push_back({kept_[0], kept_[k], kept_[k + 1]});
+  }
   polygons_.resize(faces_.size(), static_cast<Index>(polygon_count_));
   ++polygon_count_;
 }
@@ -64,6 +86,8 @@ void MeshBuilder::add_large_polygon(std::span<const Index> corners) {
 void MeshBuilder::cut_polygons() {
   EarCutter cutter;
   std::vector<Face> ears;
+  std::vector<Vec3> own;  // the polygon's positions, so that ears tell its corners
+  std::vector<Index> numbers;
   std::size_t crossing = 0;
   for (std::size_t first = 0; first < polygons_.size();) {
     std::size_t end = first + 1;
@@ -72,10 +96,16 @@ void MeshBuilder::cut_polygons() {
       kept_.assign({faces_[first][0], faces_[first][1]});
       bool whole = true;  // all vertices are there
       for (std::size_t f = first; f < end; ++f) kept_.push_back(faces_[f][2]);
-      for (const Index v : kept_) whole = whole && static_cast<std::size_t>(v) < positions_.size();
+      for (const Index v : kept_) whole = whole && at(v) < positions_.size();
       if (whole && !fan_covers(kept_, positions_)) {
-        if (!cutter.cut(kept_, positions_, ears)) ++crossing;
-        std::copy(ears.begin(), ears.end(), faces_.begin() + static_cast<std::ptrdiff_t>(first));
+        own.clear();
+        for (const Index v : kept_) own.push_back(positions_[at(v)]);
+        numbers.resize(kept_.size());
+        std::iota(numbers.begin(), numbers.end(), Index{0});
+        if (!cutter.cut(numbers, own, ears)) ++crossing;
+        attributes_.cut(first, end, ears);
+        for (std::size_t f = first; f < end; ++f)
+          for (std::size_t k = 0; k < 3; ++k) faces_[f][k] = kept_[at(ears[f - first][k])];
       }
     }
     first = end;
@@ -99,6 +129,7 @@ void MeshBuilder::clear() {
   positions_.clear();
   faces_.clear();
   polygons_.clear();
+  attributes_.clear();
   polygon_count_ = without_area_ = with_repeats_ = 0;
 }
 
@@ -140,8 +171,10 @@ void MeshBuilder::merge_identical_positions() {
 
 TriangleMesh MeshBuilder::finish() {
   cut_polygons();
-  return TriangleMesh(std::exchange(positions_, {}), std::exchange(faces_, {}),
-                      std::exchange(polygons_, {}));
+  TriangleMesh mesh(std::exchange(positions_, {}), std::exchange(faces_, {}),
+                    std::exchange(polygons_, {}));
+  mesh.set_attributes(attributes_.finish(mesh.faces()));
+  return mesh;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

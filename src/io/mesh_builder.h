@@ -5,10 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+#include "io/attribute_builder.h"
+
+namespace mimicry {
 
 /// Collects what a reader finds: holds the limits and cuts polygons into triangles.
 class MeshBuilder {
@@ -31,7 +33,11 @@ class MeshBuilder {
   /// A face of the file, which counts in any case. corners: not yet checked against the vertices.
   /// One of three is kept as it is; of a larger one, corners that repeat the one before are
   /// dropped. What then has fewer than three makes no triangle.
-  void add_polygon(std::span<const Index> corners);
+  void add_polygon(std::span<const Index> corners) { add_polygon(corners, {}, {}); }
+  /// The same with the numbers of the corners' texture coordinates and colours, each as many as
+  /// corners, kNone for none; or empty.
+  void add_polygon(std::span<const Index> corners, std::span<const Index> texcoords,
+                   std::span<const Index> colors);
   /// Makes one vertex of those at the same position (bit by bit, -0 taken for 0), in the order of
   /// first appearance.
   void merge_identical_positions();
@@ -39,6 +45,8 @@ class MeshBuilder {
   void note(const std::string& sentence) const {
     if (options_.note) options_.note(sentence);
   }
+  /// Texture coordinates, colours and labels of the faces.
+  AttributeBuilder& attributes() { return attributes_; }
   /// Forgets what was added.
   void clear();
   /// The vertices so far, and the triangles' corners, three by three.
@@ -49,7 +57,8 @@ class MeshBuilder {
 
  private:
   [[noreturn]] void fail_limit(const char* what, std::size_t limit) const;
-  void add_large_polygon(std::span<const Index> corners);
+  void add_large_polygon(std::span<const Index> corners, std::span<const Index> texcoords,
+                         std::span<const Index> colors);
   void number_polygons();
   void cut_polygons();
   void tell_of_polygons(std::size_t crossing) const;
@@ -58,8 +67,10 @@ class MeshBuilder {
   MeshReadOptions options_;
   std::vector<Vec3> positions_;
   std::vector<Face> faces_;
-  std::vector<Index> polygons_;  // empty as long as each polygon was a triangle
-  std::vector<Index> kept_;      // of a polygon's corners
+  std::vector<Index> polygons_;            // empty as long as each polygon was a triangle
+  std::vector<Index> kept_;                // of a polygon's corners
+  std::vector<std::size_t> kept_corners_;  // which those are
+  AttributeBuilder attributes_;
   std::size_t polygon_count_ = 0;
   std::size_t without_area_ = 0;  // faces of fewer than three corners
   std::size_t with_repeats_ = 0;  // faces of which corners were dropped
@@ -73,4 +84,4 @@ void read_off(std::string_view bytes, MeshBuilder& mesh);
 /// GLB or glTF, whichever the bytes are.
 void read_gltf(std::string_view bytes, MeshBuilder& mesh);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,9 +1,9 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_files.h>
+#include <mimicry/io/meshes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::string_view without_folders(std::string_view name) {
@@ -59,4 +59,4 @@ TriangleMesh read_mesh_files(std::span<const NamedBytes> files, std::size_t mesh
   return read_mesh(file.bytes, mesh_format_of(file.name), file.name, with_files);
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

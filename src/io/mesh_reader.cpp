@@ -2,13 +2,13 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/float_traps.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
+#include "base/float_traps.h"
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 namespace {
 
@@ -74,4 +74,4 @@ TriangleMesh read_mesh(std::string_view bytes, MeshFormat format, std::string_vi
   return mesh.finish();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,13 +1,13 @@
 #include <cmath>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/float_traps.h>
-#include <mimicry/io/mesh_writer.h>
-#include <mimicry/io/number.h>
+#include <mimicry/io/meshes.h>
 
+#include "base/float_traps.h"
 #include "io/mesh_writers.h"
+#include "io/number.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void append_triple(std::string& out, const Vec3& x) {
   append_double(out, x[0]);
@@ -40,21 +40,25 @@ Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* fo
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options) {
   const FloatTrapMask mask;  // to single precision may overflow
+  const WriteNote note = [&](const std::string& sentence) {
+    if (options.note) options.note(sentence);
+  };
   switch (format) {
     case MeshFormat::obj:
-      return write_obj(mesh);
+      return write_obj(mesh, note);
     case MeshFormat::ply:
       return write_ply(mesh, options.text);
     case MeshFormat::stl:
+      if (mesh.attributes()) note("STL holds no attributes of meshes; they are left out");
       return write_stl(mesh, options.text);
     case MeshFormat::off:
-      return write_off(mesh);
+      return write_off(mesh, note);
     case MeshFormat::glb:
-      return write_glb(mesh);
+      return write_glb(mesh, note);
     case MeshFormat::gltf:
       break;
   }
   throw Error(ErrorKind::unsupported, "mesh: glTF text is not written; write GLB");
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,14 +4,17 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+#include "io/attribute_writing.h"
+
+namespace mimicry {
 
 // One writer per format, each in its own source file.
-std::string write_obj(const TriangleMesh& mesh);
-std::string write_off(const TriangleMesh& mesh);
+// `note` is told which attributes the format does not hold; it can be called.
+std::string write_obj(const TriangleMesh& mesh, const WriteNote& note);
+std::string write_off(const TriangleMesh& mesh, const WriteNote& note);
 std::string write_ply(const TriangleMesh& mesh, bool text);
 std::string write_stl(const TriangleMesh& mesh, bool text);
-std::string write_glb(const TriangleMesh& mesh);
+std::string write_glb(const TriangleMesh& mesh, const WriteNote& note);
 
 /// Appends three numbers with blanks between.
 void append_triple(std::string& out, const Vec3& x);
@@ -21,4 +24,4 @@ void append_triple(std::string& out, const Face& face, Index first_number = 0);
 Eigen::Vector3f to_single(const TriangleMesh& mesh, Index vertex, const char* format,
                           const Vec3& origin = Vec3::Zero());
 
-}  // namespace mimicry::io
+}  // namespace mimicry

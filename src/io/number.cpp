@@ -1,3 +1,5 @@
+#include "io/number.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -6,10 +8,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include <mimicry/base/float_traps.h>
-#include <mimicry/io/number.h>
+#include "base/float_traps.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 bool is_digit(char c) {
@@ -199,4 +200,4 @@ std::string format_double(double value) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <mimicry/base/error.h>
@@ -7,7 +11,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 /// Where vertices and faces end. Files are written as lines are: a vertex or a face each, with a
@@ -22,6 +26,7 @@ enum class OffLayout {
 struct OffKeyword {
   bool homogeneous = false;  // a fourth coordinate, by which the others are divided
   bool has_dimension = false;
+  bool has_normals = false, has_colors = false, has_texcoords = false;
   std::size_t more_words = 0;  // after the position: normal, colour, texture coordinates
 };
 
@@ -88,15 +93,18 @@ class OffReader {
       const std::string_view rest = word.substr(k);
       if (to_lower(rest.substr(0, 2)) == "st") {
         keyword.more_words += 2;
+        keyword.has_texcoords = true;
         ++k;
       } else if (rest[0] == 'C' || rest[0] == 'c') {
         keyword.more_words += 4;
+        keyword.has_colors = true;
       } else if (rest[0] == '4') {
         keyword.homogeneous = true;
       } else if (rest.starts_with("nOFF")) {
         keyword.has_dimension = true;
       } else if (rest[0] == 'N' || rest[0] == 'n') {
         keyword.more_words += 3;
+        keyword.has_normals = true;
       } else {
         fail(in_quotes(word) + " where 'OFF' should stand; give a file of that format");
       }
@@ -145,6 +153,9 @@ class OffReader {
   void read_body(OffLayout layout, bool has_edges) {
     layout_ = layout;
     mesh_.clear();
+    colors_.clear();
+    whole_colors_ = true;
+    most_color_ = 0.0;
     mesh_.reserve(header_.vertices, header_.faces);
     start(header_.body, header_.line + 1);
     if (layout != OffLayout::lines) {
@@ -156,6 +167,7 @@ class OffReader {
     for (std::size_t f = 0; f < header_.faces; ++f) face();
     if (layout != OffLayout::lines && next_line())
       fail("more follows than the header promises; export the file again");
+    add_colors();
   }
 
   void start(std::string_view text, std::size_t first_line) {
@@ -198,12 +210,48 @@ class OffReader {
              " is not a number, for a vertex; correct it or export the file again");
       position[k] = *value;
     }
-    mesh_.add_vertex(keyword.homogeneous ? Vec3(position.head<3>() / position[3])
-                                         : Vec3(position.head<3>()));
-    if (layout_ == OffLayout::lines)
-      rest_ = {};
-    else
-      for (std::size_t k = 0; k < keyword.more_words; ++k) required(what);
+    const Index vertex = mesh_.add_vertex(
+        keyword.homogeneous ? Vec3(position.head<3>() / position[3]) : Vec3(position.head<3>()));
+    more_words_.clear();
+    if (layout_ != OffLayout::lines)
+      for (std::size_t k = 0; k < keyword.more_words; ++k) more_words_.push_back(required(what));
+    else if (keyword.has_colors || keyword.has_texcoords)
+      for (std::string_view more; !(more = take_word(rest_)).empty();) more_words_.push_back(more);
+    if (layout_ == OffLayout::lines) rest_ = {};
+    take_attributes(vertex);
+  }
+
+  // Normal, colour (3 or 4 words), texture coordinates, as far as the keyword promises them.
+  void take_attributes(Index vertex) {
+    const OffKeyword& keyword = header_.keyword;
+    std::span<const std::string_view> words = more_words_;
+    if (keyword.has_normals) words = words.subspan(std::min<std::size_t>(3, words.size()));
+    if (keyword.has_texcoords && words.size() >= 2) {
+      const auto u = parse_double(words[words.size() - 2]), v = parse_double(words.back());
+      words = words.first(words.size() - 2);
+      if (u && v)
+        mesh_.attributes().texcoords.set_of_vertex(
+            vertex, {static_cast<float>(*u), static_cast<float>(*v)});
+    }
+    if (!keyword.has_colors || words.size() < 3 || words.size() > 4) return;
+    std::array<double, 4> color = {0.0, 0.0, 0.0, std::nan("")};
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      const auto value = parse_double(words[k]);
+      if (!value) return;
+      color[k] = *value;
+      most_color_ = std::max(most_color_, *value);
+      whole_colors_ = whole_colors_ && parse_integer(words[k]).has_value();
+    }
+    colors_.emplace_back(vertex, color);
+  }
+
+  // Geomview's colours are fractions; most programs write whole numbers to 255.
+  void add_colors() {
+    const double most = whole_colors_ && most_color_ > 1.0 ? 255.0 : 1.0;
+    for (const auto& [vertex, c] : colors_)
+      mesh_.attributes().colors.set_of_vertex(
+          vertex, color_from_srgb(c[0] / most, c[1] / most, c[2] / most,
+                                  std::isnan(c[3]) ? 1.0 : c[3] / most));
   }
 
   void face() {
@@ -240,6 +288,10 @@ class OffReader {
   std::size_t line_ = 1;
   std::string_view rest_;  // of the line
   std::vector<Index> corners_;
+  std::vector<std::string_view> more_words_;                     // of a vertex, behind its position
+  std::vector<std::pair<Index, std::array<double, 4>>> colors_;  // as they stand; alpha may be NaN
+  bool whole_colors_ = true;                                     // no fraction among them
+  double most_color_ = 0.0;
 };
 
 }  // namespace
@@ -248,4 +300,4 @@ void read_off(std::string_view bytes, MeshBuilder& mesh) {
   OffReader(bytes, mesh).read();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

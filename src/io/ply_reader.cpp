@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,63 +9,24 @@
 
 #include "io/binary.h"
 #include "io/mesh_builder.h"
+#include "io/ply_attributes.h"
+#include "io/ply_property.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::int8:
-    case Type::uint8:
-      return 1;
-    case Type::int16:
-    case Type::uint16:
-      return 2;
-    case Type::int32:
-    case Type::uint32:
-    case Type::float32:
-      return 4;
-    case Type::float64:
-      break;
-  }
-  return 8;
-}
-
-bool is_whole(Type type) {
-  return type != Type::float32 && type != Type::float64;
-}
-
-std::optional<Type> type_of(std::string_view word) {
-  if (word == "char" || word == "int8") return Type::int8;
-  if (word == "uchar" || word == "uint8") return Type::uint8;
-  if (word == "short" || word == "int16") return Type::int16;
-  if (word == "ushort" || word == "uint16") return Type::uint16;
-  if (word == "int" || word == "int32") return Type::int32;
-  if (word == "uint" || word == "uint32") return Type::uint32;
-  if (word == "float" || word == "float32") return Type::float32;
-  if (word == "double" || word == "float64") return Type::float64;
-  return std::nullopt;
-}
-
-struct Property {
-  std::string_view name;
-  std::optional<Type> count_type;  // lists only
-  Type type;
-};
 
 struct Element {
   std::string_view name;
   std::uint64_t count;
-  std::vector<Property> properties;
+  std::vector<PlyProperty> properties;
 };
 
 enum class Encoding { text, little_endian, big_endian };
 
 struct Header {
   Encoding encoding = Encoding::text;
+  PlyLabelNames labels;
   std::vector<Element> elements;
   std::size_t lines = 0;
   std::string_view body;
@@ -119,20 +81,22 @@ Header read_header(std::string_view bytes, MeshBuilder& mesh) {
     } else if (keyword == "property") {
       if (header.elements.empty())
         fail("a property stands before the first element; export the file again");
-      Property property{};
+      PlyProperty property{};
       std::string_view word = take_word(line);
       if (word == "list") {
-        property.count_type = type_of(take_word(line));
-        if (!property.count_type || !is_whole(*property.count_type))
+        property.count_type = ply_type_of(take_word(line));
+        if (!property.count_type || !is_whole_ply_type(*property.count_type))
           fail("the count of a list is of no whole type; export the file again");
         word = take_word(line);
       }
-      const auto type = type_of(word);
+      const auto type = ply_type_of(word);
       if (!type) fail(in_quotes(word) + " is no PLY type; export the file again");
       property.type = *type;
       property.name = take_word(line);
       header.elements.back().properties.push_back(property);
-    } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+    } else if (keyword == "comment") {
+      header.labels.add(line);
+    } else if (keyword != "obj_info" && !keyword.empty()) {
       if (unknown++ == 0)
         first_unknown = in_quotes(keyword) + " in line " + std::to_string(lines.line());
     }
@@ -149,13 +113,17 @@ class TextSource {
  public:
   TextSource(const Header& header, std::string_view name)
       : words_(header.body, name, header.lines + 1) {}
-  double number(Type) { return words_.number("a property"); }
-  std::int64_t integer(Type) { return words_.integer("a list's count or item"); }
-  void skip(Type) { words_.skip("a property"); }
+  double number(PlyType) { return words_.number("a property"); }
+  std::int64_t integer(PlyType) { return words_.integer("a list's count or item"); }
+  /// NaN where it is no number: for what may be passed over.
+  double number_or_nan(PlyType) {
+    return parse_double(words_.required("a property")).value_or(std::nan(""));
+  }
+  void skip(PlyType) { words_.skip("a property"); }
   std::uint64_t bytes_left() const { return words_.bytes_left(); }
   [[noreturn]] void fail(const std::string& what) const { words_.fail(what); }
   // A digit and a blank.
-  static std::uint64_t least_size(Type) { return 2; }
+  static std::uint64_t least_size(PlyType) { return 2; }
   // The last word needs no blank.
   static constexpr std::uint64_t kSlack = 1;
 
@@ -171,42 +139,44 @@ class BinarySource {
         offset_(bytes.size() - header.body.size()),
         name_(name) {}
 
-  double number(Type type) {
+  double number(PlyType type) {
     const char* p = take(type);
     switch (type) {
-      case Type::float32:
+      case PlyType::float32:
         return load<float>(p, big_endian_);
-      case Type::float64:
+      case PlyType::float64:
         return load<double>(p, big_endian_);
       default:
         return static_cast<double>(whole(type, p));
     }
   }
-  std::int64_t integer(Type type) { return whole(type, take(type)); }
-  void skip(Type type) { take(type); }
+  double number_or_nan(PlyType type) { return number(type); }
+  std::int64_t integer(PlyType type) { return whole(type, take(type)); }
+  void skip(PlyType type) { take(type); }
   std::uint64_t bytes_left() const { return bytes_.size() - offset_; }
   [[noreturn]] void fail(const std::string& what) const { fail_at_byte(name_, offset_, what); }
-  static std::uint64_t least_size(Type type) { return size_of(type); }
+  static std::uint64_t least_size(PlyType type) { return ply_size_of(type); }
   static constexpr std::uint64_t kSlack = 0;
 
  private:
-  const char* take(Type type) {
-    if (bytes_left() < size_of(type)) fail("the file ends within its elements; it is cut short");
+  const char* take(PlyType type) {
+    if (bytes_left() < ply_size_of(type))
+      fail("the file ends within its elements; it is cut short");
     const char* p = bytes_.data() + offset_;
-    offset_ += size_of(type);
+    offset_ += ply_size_of(type);
     return p;
   }
-  std::int64_t whole(Type type, const char* p) const {
+  std::int64_t whole(PlyType type, const char* p) const {
     switch (type) {
-      case Type::int8:
+      case PlyType::int8:
         return load<std::int8_t>(p, big_endian_);
-      case Type::uint8:
+      case PlyType::uint8:
         return load<std::uint8_t>(p, big_endian_);
-      case Type::int16:
+      case PlyType::int16:
         return load<std::int16_t>(p, big_endian_);
-      case Type::uint16:
+      case PlyType::uint16:
         return load<std::uint16_t>(p, big_endian_);
-      case Type::int32:
+      case PlyType::int32:
         return load<std::int32_t>(p, big_endian_);
       default:
         return load<std::uint32_t>(p, big_endian_);
@@ -219,63 +189,61 @@ class BinarySource {
   std::string_view name_;
 };
 
-/// The count of a list, which the file can hold.
-template <class Source>
-std::int64_t list_size(Source& source, const Property& property) {
-  const std::int64_t count = source.integer(*property.count_type);
-  if (count < 0 || static_cast<std::uint64_t>(count) * source.least_size(property.type) >
-                       source.bytes_left() + Source::kSlack)
-    source.fail("a list of " + std::to_string(count) +
-                " items, more than the file holds; it is cut short or not what its header says");
-  return count;
-}
-
-// What is passed over need not be numbers.
-template <class Source>
-void skip_property(Source& source, const Property& property) {
-  const std::int64_t count = property.count_type ? list_size(source, property) : 1;
-  for (std::int64_t k = 0; k < count; ++k) source.skip(property.type);
-}
+/// by_corner: what faces have in lists of their own and vertices need not tell.
+struct ByCorner {
+  bool texcoords = false, colors = false;
+};
 
 template <class Source>
-void read_vertices(Source& source, const Element& element, MeshBuilder& mesh) {
-  std::vector<int> axes;  // 0, 1, 2 for x, y, z; -1 for what is passed over
-  int found[3] = {};
-  for (const Property& property : element.properties) {
-    const bool scalar = !property.count_type;
-    const int axis = !scalar                ? -1
-                     : property.name == "x" ? 0
-                     : property.name == "y" ? 1
-                     : property.name == "z" ? 2
-                                            : -1;
-    axes.push_back(axis);
-    if (axis >= 0) ++found[axis];
+void read_vertices(Source& source, const Element& element, const ByCorner& by_corner,
+                   MeshBuilder& mesh) {
+  std::vector<PlyRole> roles;
+  int found[kPlyRoles] = {};
+  double most = 1.0;
+  for (const PlyProperty& property : element.properties) {
+    PlyRole role = ply_role_of(property);
+    if (role >= kPlyRed && found[role] > 0) role = kPlyPassedOver;  // the first counts
+    roles.push_back(role);
+    if (role >= 0) ++found[role];
+    if (role == kPlyRed) most = ply_most_of(property.type);
   }
   for (int axis = 0; axis < 3; ++axis)
     if (found[axis] != 1)
       source.fail(std::string("the element 'vertex' needs one property '") + "xyz"[axis] +
                   "'; export the file again");
+  const bool has_color =
+      !by_corner.colors && found[kPlyRed] > 0 && found[kPlyGreen] > 0 && found[kPlyBlue] > 0;
+  const bool has_texcoord = !by_corner.texcoords && found[kPlyU] > 0 && found[kPlyV] > 0;
+  for (PlyRole& role : roles)
+    if (role >= kPlyU ? !has_texcoord : role >= kPlyRed && !has_color) role = kPlyPassedOver;
+  const PlyColor to_color;
   mesh.reserve(element.count, 0);
+  double numbers[kPlyRoles] = {};
+  numbers[kPlyAlpha] = most;
   for (std::uint64_t v = 0; v < element.count; ++v) {
-    Vec3 position;
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      if (axes[k] >= 0)
-        position[axes[k]] = source.number(element.properties[k].type);
+    for (std::size_t k = 0; k < roles.size(); ++k) {
+      const PlyType type = element.properties[k].type;
+      if (roles[k] == kPlyPassedOver)
+        skip_ply_property(source, element.properties[k]);
       else
-        skip_property(source, element.properties[k]);
+        numbers[roles[k]] = roles[k] <= kPlyZ ? source.number(type) : source.number_or_nan(type);
     }
-    mesh.add_vertex(position);
+    const Index vertex = mesh.add_vertex({numbers[kPlyX], numbers[kPlyY], numbers[kPlyZ]});
+    if (has_color) mesh.attributes().colors.set_of_vertex(vertex, to_color(numbers, most));
+    if (has_texcoord)
+      mesh.attributes().texcoords.set_of_vertex(
+          vertex, {static_cast<float>(numbers[kPlyU]), static_cast<float>(numbers[kPlyV])});
   }
 }
 
 /// The list of an element's that names vertices.
 template <class Source>
-const Property& list_of_corners(Source& source, const Element& element) {
-  for (const Property& property : element.properties) {
+const PlyProperty& list_of_corners(Source& source, const Element& element) {
+  for (const PlyProperty& property : element.properties) {
     if (!property.count_type ||
         (property.name != "vertex_indices" && property.name != "vertex_index"))
       continue;
-    if (!is_whole(property.type))
+    if (!is_whole_ply_type(property.type))
       source.fail("the list " + in_quotes(property.name) +
                   " is of no whole type; export the file again");
     return property;
@@ -284,21 +252,22 @@ const Property& list_of_corners(Source& source, const Element& element) {
               " needs a list 'vertex_indices'; export the file again");
 }
 
-/// Hands over the corners of each of an element's faces or strips.
-template <class Source, class Visit>
+/// Hands over the corners of each of an element's faces or strips, and to `other` what else they
+/// have.
+template <class Source, class Other, class Visit>
 void read_corners(Source& source, const Element& element, std::uint64_t vertex_count,
-                  bool has_restarts, const Visit& visit) {
+                  bool has_restarts, const Other& other, const Visit& visit) {
   if (element.count == 0) return;
-  const Property& list = list_of_corners(source, element);
+  const PlyProperty& list = list_of_corners(source, element);
   std::vector<Index> corners;
   for (std::uint64_t f = 0; f < element.count; ++f) {
     corners.clear();
-    for (const Property& property : element.properties) {
+    for (const PlyProperty& property : element.properties) {
       if (&property != &list) {
-        skip_property(source, property);
+        other(property);
         continue;
       }
-      const std::int64_t count = list_size(source, list);
+      const std::int64_t count = ply_list_size(source, list);
       for (std::int64_t k = 0; k < count; ++k) {
         const std::int64_t item = source.integer(list.type);
         if (has_restarts && item == -1) {
@@ -339,29 +308,43 @@ void read_body(Source& source, const Header& header, MeshBuilder& mesh) {
     // file can hold is found out before anything is allocated. (One without properties is refused
     // where it is read.)
     std::uint64_t least = 0;
-    for (const Property& property : element.properties)
+    for (const PlyProperty& property : element.properties)
       least += source.least_size(property.count_type ? *property.count_type : property.type);
     if (least > 0 && element.count > (source.bytes_left() + Source::kSlack) / least)
       source.fail("the header promises " + std::to_string(element.count) + " elements " +
                   in_quotes(element.name) + ", more than the file holds; it is cut short");
   }
+  PlyFaceAttributes attributes(header.labels, mesh);
+  ByCorner by_corner;
+  for (const Element& element : header.elements)
+    for (const PlyProperty& property : element.properties) {
+      if (element.name != "face") continue;
+      by_corner.texcoords = by_corner.texcoords || PlyFaceAttributes::is_texcoords(property);
+      by_corner.colors = by_corner.colors || PlyFaceAttributes::is_colors(property);
+    }
   for (const Element& element : header.elements) {
     if (element.name == "vertex") {
       if (seen_vertices) source.fail("two elements 'vertex'; export the file again");
       seen_vertices = true;
-      read_vertices(source, element, mesh);
+      read_vertices(source, element, by_corner, mesh);
     } else if (element.name == "face") {
       mesh.reserve(0, element.count);
-      read_corners(source, element, vertex_count, false,
-                   [&](std::span<const Index> corners) { mesh.add_polygon(corners); });
+      attributes.begin(element.properties);
+      read_corners(
+          source, element, vertex_count, false,
+          [&](const PlyProperty& property) { attributes.read(source, property); },
+          [&](std::span<const Index> corners) { attributes.add_polygon(corners); });
     } else if (element.name == "tristrips") {
-      read_corners(source, element, vertex_count, true,
-                   [&](std::span<const Index> corners) { add_strip(corners, mesh); });
+      read_corners(
+          source, element, vertex_count, true,
+          [&](const PlyProperty& property) { skip_ply_property(source, property); },
+          [&](std::span<const Index> corners) { add_strip(corners, mesh); });
     } else if (!element.properties.empty()) {
       for (std::uint64_t n = 0; n < element.count; ++n)
-        for (const Property& property : element.properties) skip_property(source, property);
+        for (const PlyProperty& property : element.properties) skip_ply_property(source, property);
     }
   }
+  attributes.tell();
 }
 
 }  // namespace
@@ -377,4 +360,4 @@ void read_ply(std::string_view bytes, MeshBuilder& mesh) {
   }
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

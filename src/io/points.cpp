@@ -2,12 +2,12 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
-#include <mimicry/io/points.h>
+#include <mimicry/io/strokes.h>
 
+#include "io/csv.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::string_view trimmed(std::string_view cell) {
@@ -16,15 +16,15 @@ std::string_view trimmed(std::string_view cell) {
   return cell;
 }
 
-const char* label_of(embedding::ScpLabel label) {
+const char* label_of(ScpLabel label) {
   switch (label) {
-    case embedding::ScpLabel::smooth:
+    case ScpLabel::smooth:
       return "smooth";
-    case embedding::ScpLabel::outside_shell:
+    case ScpLabel::outside_shell:
       return "outside-shell";
-    case embedding::ScpLabel::no_phong_solution:
+    case ScpLabel::no_phong_solution:
       return "no-phong-solution";
-    case embedding::ScpLabel::replaced:
+    case ScpLabel::replaced:
       return "replaced";
   }
   return "";
@@ -63,7 +63,7 @@ PointRows read_points_csv(std::string_view bytes, std::string_view name) {
   return rows;
 }
 
-std::string write_smooth_points_csv(std::span<const std::optional<embedding::SmoothPoint>> points) {
+std::string write_smooth_points_csv(std::span<const std::optional<SmoothPoint>> points) {
   std::string out = "face,b0,b1,b2,x,y,z,label\n";
   for (const auto& point : points) {
     if (!point) {
@@ -83,4 +83,4 @@ std::string write_smooth_points_csv(std::span<const std::optional<embedding::Smo
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 // Sines of angles below which corners count as on a line: of coordinates in single precision, and
@@ -284,4 +284,4 @@ bool EarCutter::cut(std::span<const Index> corners, std::span<const Vec3> positi
   return simple && steps_left_ > 0;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

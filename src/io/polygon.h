@@ -6,7 +6,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Whether the triangles (0, k, k + 1) of a polygon cover it once, seen along its normal (Newell's:
 /// the sum of their area vectors), and none is flat. True of convex polygons without three corners
@@ -68,4 +68,4 @@ class EarCutter {
   std::int64_t steps_left_ = 0;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

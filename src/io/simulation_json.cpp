@@ -1,9 +1,9 @@
 #include "io/json_text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
-stroke::Simulation read_simulation(const Json& value, const std::string& where) {
-  stroke::Simulation simulation;
+Simulation read_simulation(const Json& value, const std::string& where) {
+  Simulation simulation;
   simulation.program = text(member(value, "program", where), where + ": program");
   const Json& seed = member(value, "seed", where);
   if (!seed.is_number_integer() || (!seed.is_number_unsigned() && seed.get<std::int64_t>() < 0))
@@ -14,10 +14,10 @@ stroke::Simulation read_simulation(const Json& value, const std::string& where) 
   return simulation;
 }
 
-void write_simulation(JsonText& out, const stroke::Simulation& simulation) {
+void write_simulation(JsonText& out, const Simulation& simulation) {
   out.begin('{').member("program", simulation.program).member("seed", simulation.seed);
   if (!simulation.technique.empty()) out.member("technique", simulation.technique);
   out.end('}');
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -9,7 +9,7 @@
 #include "io/mesh_builder.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kHeaderSize = 84;    // 80 bytes of anything, a count
@@ -181,4 +181,4 @@ void read_stl(std::string_view bytes, MeshBuilder& mesh) {
   mesh.merge_identical_positions();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

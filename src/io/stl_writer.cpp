@@ -1,7 +1,7 @@
 #include "io/binary.h"
 #include "io/mesh_writers.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 std::string write_stl(const TriangleMesh& mesh, bool text) {
   std::string out;
@@ -43,4 +43,4 @@ std::string write_stl(const TriangleMesh& mesh, bool text) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

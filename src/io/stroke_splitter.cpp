@@ -1,9 +1,9 @@
+#include "io/stroke_splitter.h"
+
 #include <array>
 #include <utility>
 
-#include <mimicry/io/stroke_splitter.h>
-
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 16;
@@ -112,4 +112,4 @@ std::optional<std::string> StrokeSplitter::next() {
   return part;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,22 +1,16 @@
 #include <optional>
 #include <utility>
 
-#include <mimicry/io/stroke_splitter.h>
 #include <mimicry/io/strokes.h>
 
 #include "io/json.h"
 #include "io/json_document.h"
 #include "io/json_text.h"
+#include "io/stroke_splitter.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using stroke::CoordinateConvention;
-using stroke::Frame;
-using stroke::Intention;
-using stroke::Pose;
-using stroke::Stroke;
 
 constexpr const char* kStrokesFormat = "mimicry-strokes";
 
@@ -85,7 +79,7 @@ Stroke read_stroke(const Json& value, const CoordinateConvention& convention,
                 std::string(error.what()) + "; correct it or record the stroke again");
   }
   try {
-    stroke::require_usable(stroke);
+    require_usable(stroke);
   } catch (const Error& error) {
     throw Error(error.kind(), where + ": " + error.what());
   }
@@ -116,7 +110,7 @@ struct StrokesHeader {
                         "); update the program or export the strokes again");
     } else if (key == "convention") {
       const std::string wanted = value.is_string() ? value.get<std::string>() : value.dump();
-      convention = stroke::find_convention(wanted);
+      convention = find_convention(wanted);
       if (convention == nullptr)
         throw Error(ErrorKind::invalid_input, name + ": convention '" + wanted +
                                                   "' is not known; use openxr, unity, unreal or "
@@ -130,21 +124,21 @@ struct StrokesHeader {
   }
 };
 
-void write(JsonText& out, const Pose& pose) {
+void write_value(JsonText& out, const Pose& pose) {
   out.begin('{').member("position", pose.position);
   out.member("orientation", pose.orientation).end('}');
 }
 
-void write(JsonText& out, const Frame& frame) {
+void write_value(JsonText& out, const Frame& frame) {
   out.begin('{').member("time_s", frame.time_s);
-  write(out.key("head"), frame.head);
-  write(out.key("controller"), frame.controller);
+  write_value(out.key("head"), frame.head);
+  write_value(out.key("controller"), frame.controller);
   out.member("trigger", frame.trigger);
   if (frame.pressure) out.member("pressure", *frame.pressure);
   out.end('}');
 }
 
-void write(JsonText& out, const Intention& intention) {
+void write_value(JsonText& out, const Intention& intention) {
   out.begin('{').member("name", intention.name).member("closed", intention.closed);
   out.key("face").begin('[');
   for (const SurfacePoint& p : intention.points) out.value(p.face);
@@ -270,16 +264,16 @@ StrokeWriter::StrokeWriter(Sink sink, const CoordinateConvention& convention)
 }
 
 void StrokeWriter::write(const Stroke& stroke) {
-  stroke::require_usable(stroke);
+  require_usable(stroke);
   const Similarity placed = convention_->placement_out(stroke.model_to_world);
   JsonText out;
   out.begin('{').member("id", stroke.id).member("target", stroke.target);
   out.key("model_to_world").begin('{').member("rotation", placed.rotation);
   out.member("translation", placed.translation).member("scale", placed.scale).end('}');
-  if (stroke.intended) io::write(out.key("intended"), *stroke.intended);
+  if (stroke.intended) write_value(out.key("intended"), *stroke.intended);
   if (stroke.simulated) write_simulation(out.key("simulated"), *stroke.simulated);
   out.key("frames").begin('[');
-  for (const Frame& frame : stroke.frames) io::write(out, convention_->frame_out(frame));
+  for (const Frame& frame : stroke.frames) write_value(out, convention_->frame_out(frame));
   out.end(']').end('}');
   sink_((first_ ? "\n" : ",\n") + out.text());
   first_ = false;
@@ -297,4 +291,4 @@ std::string write_strokes(std::span<const Stroke> strokes, const CoordinateConve
   return text;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

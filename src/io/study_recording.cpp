@@ -5,19 +5,15 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/io/study_recording.h>
+#include <mimicry/io/study.h>
 
 #include "io/json.h"
 #include "io/json_document.h"
 #include "io/json_text.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using study::RecordedFrame;
-using study::RecordedPiece;
-using study::RecordedStroke;
 
 // Writers of other languages put bare NaN and Infinity into JSON, which has no word for them.
 std::string without_nan(std::string_view text) {
@@ -200,4 +196,4 @@ std::string write_recording(std::span<const RecordedStroke> strokes) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/io/study_recording.h>
+#include <mimicry/io/study.h>
 
 #include "io/json.h"
 #include "io/json_document.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using Numbers = std::vector<Index>;
@@ -35,7 +35,7 @@ Numbers without_duplicates(const Numbers& list) {
 
 // The order of one method and shape, or of all.
 Numbers checked(const Numbers& curves, const std::string& where) {
-  Numbers list = study::with_repeats(curves);
+  Numbers list = with_repeats(curves);
   if (list.empty())
     json_fail(where, "'StrokeSequence' has " + std::to_string(curves.size()) +
                          " curves for a shape that are neither all different nor in two halves "
@@ -49,16 +49,16 @@ std::optional<std::vector<Numbers>> cut(const Numbers& flat, std::size_t count) 
   const std::size_t size = flat.size() / count;
   std::vector<Numbers> lists;
   for (std::size_t i = 0; i < count; ++i) {
-    lists.push_back(study::with_repeats(std::span(flat).subspan(i * size, size)));
+    lists.push_back(with_repeats(std::span(flat).subspan(i * size, size)));
     if (lists.back().empty()) return std::nullopt;
   }
   return lists;
 }
 
 // Entry i of all three lists belongs to stroke i.
-study::StudySequence from_parallel(const Numbers& methods, const Numbers& shapes,
-                                   const Numbers& curves, const std::string& where) {
-  study::StudySequence sequence{without_duplicates(methods), without_duplicates(shapes), {}};
+StudySequence from_parallel(const Numbers& methods, const Numbers& shapes, const Numbers& curves,
+                            const std::string& where) {
+  StudySequence sequence{without_duplicates(methods), without_duplicates(shapes), {}};
   for (const Index m : sequence.methods)
     for (const Index s : sequence.shapes) {
       Numbers list;
@@ -77,11 +77,11 @@ void add_lists(const Json& value, std::vector<Numbers>& lists, const std::string
       lists.push_back(checked(numbers(entry, where + ": StrokeSequence"), where));
 }
 
-study::StudySequence from_json(const Json& root, const std::string& file) {
+StudySequence from_json(const Json& root, const std::string& file) {
   const Numbers methods = numbers(array(root, "MethodSequence", file), file + ": MethodSequence");
   const Numbers shapes = numbers(array(root, "ShapeSequence", file), file + ": ShapeSequence");
   const Json& strokes = array(root, "StrokeSequence", file);
-  study::StudySequence sequence{without_duplicates(methods), without_duplicates(shapes), {}};
+  StudySequence sequence{without_duplicates(methods), without_duplicates(shapes), {}};
   if (sequence.methods.empty() || sequence.shapes.empty() || strokes.empty())
     json_fail(file, "a sequence is empty");
   const std::size_t shape_count = sequence.shapes.size();
@@ -98,7 +98,7 @@ study::StudySequence from_json(const Json& root, const std::string& file) {
   const Numbers curves = numbers(strokes, file + ": StrokeSequence");
   if (methods.size() == curves.size() && shapes.size() == curves.size() && pairs < curves.size())
     return from_parallel(methods, shapes, curves, file);
-  if (const Numbers same = study::with_repeats(curves); !same.empty())
+  if (const Numbers same = with_repeats(curves); !same.empty())
     sequence.strokes.assign(shape_count, same);
   else if (auto by_shape = cut(curves, shape_count))
     sequence.strokes = std::move(*by_shape);
@@ -111,7 +111,7 @@ study::StudySequence from_json(const Json& root, const std::string& file) {
 
 }  // namespace
 
-study::StudySequence read_study_sequence(std::string_view bytes, std::string_view name) {
+StudySequence read_study_sequence(std::string_view bytes, std::string_view name) {
   const std::string file(name);
   try {
     return from_json(JsonDocument(text_of(bytes, name), name).root(), file);
@@ -122,7 +122,7 @@ study::StudySequence read_study_sequence(std::string_view bytes, std::string_vie
   }
 }
 
-std::string write_study_sequence(const study::StudySequence& sequence) {
+std::string write_study_sequence(const StudySequence& sequence) {
   return OrderedJson{{"MethodSequence", sequence.methods},
                      {"ShapeSequence", sequence.shapes},
                      {"StrokeSequence", sequence.strokes}}
@@ -130,4 +130,4 @@ std::string write_study_sequence(const study::StudySequence& sequence) {
          "\n";
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -3,28 +3,28 @@
 #include <string>
 #include <utility>
 
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/study.h>
 
 #include "io/json.h"
 #include "io/json_document.h"
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
-constexpr double kRounding = 1e-3;  // the published ones are off by up to 8e-5
+constexpr double kPublishedRounding = 1e-3;  // the published ones are off by up to 8e-5
 
 SurfacePoint read_point(const Json& face, const Json& bary, const std::string& where) {
   SurfacePoint p{index(face, where), vector<3>(bary, where)};
-  if (p.bary.minCoeff() < -kRounding || std::abs(p.bary.sum() - 1) > kRounding)
+  if (p.bary.minCoeff() < -kPublishedRounding || std::abs(p.bary.sum() - 1) > kPublishedRounding)
     json_fail(where, "barycentric coordinates are negative or do not sum to 1");
   p.bary = p.bary.cwiseMax(0.0);
   p.bary /= p.bary.sum();
   return p;
 }
 
-study::TargetCurve read_curve(const Json& value, const std::string& where) {
-  study::TargetCurve curve;
+TargetCurve read_curve(const Json& value, const std::string& where) {
+  TargetCurve curve;
   const Json& faces = array(value, "face", where);
   const Json& bary = array(value, "bary", where);
   if (faces.size() != bary.size())
@@ -53,8 +53,8 @@ study::TargetCurve read_curve(const Json& value, const std::string& where) {
   return curve;
 }
 
-study::TargetShape read_shape(const Json& value, std::string where) {
-  study::TargetShape shape;
+TargetShape read_shape(const Json& value, std::string where) {
+  TargetShape shape;
   shape.name = text(member(value, "name", where), where + ": name");
   where += " (" + shape.name + ")";
   shape.scale = number(member(value, "scale", where), where + ": scale");
@@ -67,9 +67,9 @@ study::TargetShape read_shape(const Json& value, std::string where) {
 
 }  // namespace
 
-study::TargetSet read_targets(std::string_view bytes, std::string_view name) {
+TargetSet read_targets(std::string_view bytes, std::string_view name) {
   const std::string file(name);
-  study::TargetSet set;
+  TargetSet set;
   try {
     const JsonDocument document(text_of(bytes, name), name);
     const Json& shapes = array(document.root(), "shapes", file);
@@ -85,4 +85,4 @@ study::TargetSet read_targets(std::string_view bytes, std::string_view name) {
   return set;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

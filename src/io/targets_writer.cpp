@@ -1,17 +1,17 @@
 #include <utility>
 
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 
 #include "io/json_text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::string text(const std::string& value) {
   return JsonText().value(value).text();
 }
 
-std::string text(const study::TargetCurve& curve) {
+std::string text(const TargetCurve& curve) {
   JsonText out;
   out.begin('{').key("face").begin('[');
   for (const SurfacePoint& p : curve.points) out.value(p.face);
@@ -30,16 +30,16 @@ std::string text(const study::TargetCurve& curve) {
 
 }  // namespace
 
-std::string write_targets(const study::TargetSet& set, std::string_view note) {
+std::string write_targets(const TargetSet& set, std::string_view note) {
   std::string out = "{\"note\":" + text(std::string(note)) + ",\"shapes\":[";
   const char* before_shape = "\n";
-  for (const study::TargetShape& shape : set.shapes) {
+  for (const TargetShape& shape : set.shapes) {
     out += before_shape;
     before_shape = ",\n";
     out += "{\"name\":" + text(shape.name);
     out += ",\"scale\":" + JsonText().value(shape.scale).text() + ",\"curves\":[";
     const char* before_curve = "\n";
-    for (const study::TargetCurve& curve : shape.curves) {
+    for (const TargetCurve& curve : shape.curves) {
       out += before_curve + text(curve);
       before_curve = ",\n";
     }
@@ -49,4 +49,4 @@ std::string write_targets(const study::TargetSet& set, std::string_view note) {
   return out;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

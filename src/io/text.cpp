@@ -8,7 +8,7 @@
 
 #include "io/json.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 void fail_at_line(std::string_view name, std::size_t line, const std::string& what) {
   throw Error(ErrorKind::invalid_input,
@@ -166,4 +166,4 @@ std::int64_t Words::integer(const char* what) {
   return *value;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

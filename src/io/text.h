@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include <mimicry/io/number.h>
+#include "io/number.h"
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Throws Error(invalid_input, "name: line 12: what").
 [[noreturn]] void fail_at_line(std::string_view name, std::size_t line, const std::string& what);
@@ -66,6 +66,8 @@ class Words {
   void skip_line();
   double number(const char* what);
   std::int64_t integer(const char* what);
+  /// The next word; throws where none is left.
+  std::string_view required(const char* what);
   /// Passes over a word, whatever it says.
   void skip(const char* what);
   std::size_t line() const { return line_; }
@@ -73,7 +75,6 @@ class Words {
   [[noreturn]] void fail(const std::string& what) const { fail_at_line(name_, line_, what); }
 
  private:
-  std::string_view required(const char* what);
   static bool is_space(char c) { return is_blank(c) || c == '\n'; }
   // A CR before an LF leaves the end to it.
   bool ends_line(std::size_t at) const {
@@ -86,4 +87,4 @@ class Words {
   std::size_t line_;
 };
 
-}  // namespace mimicry::io
+}  // namespace mimicry

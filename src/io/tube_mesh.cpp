@@ -1,3 +1,5 @@
+#include "io/tube_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,9 +7,8 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/tube_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -142,9 +143,9 @@ void spread_twist(std::vector<Ring>& rings, const TubeFrame& first, const TubeFr
   }
 }
 
-class Builder {
+class TubeBuilder {
  public:
-  explicit Builder(int sides) : sides_(sides) {}
+  explicit TubeBuilder(int sides) : sides_(sides) {}
 
   /// latitude: of a ring of an end's half ball; 0 on the tube itself.
   void add_ring(const Knot& knot, const TubeFrame& frame, double latitude) {
@@ -240,7 +241,7 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
                 "tube: " + std::to_string(vertices) + " vertices; take fewer points or sides");
   }
 
-  Builder builder(options.sides);
+  TubeBuilder builder(options.sides);
   const Knot head = rings.front().knot;
   const Knot tail = rings.back().knot;
   const TubeFrame head_frame = rings.front().frame;
@@ -265,4 +266,4 @@ TubeMesh tube_mesh(std::span<const Vec3> points, const TubeOptions& options) {
   return builder.take();
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

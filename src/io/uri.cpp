@@ -6,7 +6,7 @@
 
 #include "io/text.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 int hex_digit(char c) {
@@ -104,4 +104,4 @@ std::optional<std::string> name_below(std::string_view path) {
   return name;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// Whether it holds its own bytes (RFC 2397).
 bool is_data_uri(std::string_view uri);
@@ -20,4 +20,4 @@ std::string percent_decoded(std::string_view text);
 /// a control character, or is empty.
 std::optional<std::string> name_below(std::string_view path);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,9 +5,9 @@
 #include <tuple>
 #include <utility>
 
-#include <mimicry/base/float_traps.h>
 #include <mimicry/mesh/connect.h>
 
+#include "base/float_traps.h"
 #include "mesh/fans.h"
 #include "mesh/findings.h"
 #include "mesh/kept_faces.h"
@@ -16,6 +16,16 @@
 
 namespace mimicry {
 namespace {
+
+// The attributes of a mesh of which some faces are turned; shared where none is.
+std::shared_ptr<const MeshAttributes> turned_attributes(const TriangleMesh& mesh,
+                                                        const std::vector<bool>& turned) {
+  if (!mesh.attributes() || std::find(turned.begin(), turned.end(), true) == turned.end())
+    return mesh.attributes();
+  auto own = std::make_shared<MeshAttributes>(*mesh.attributes());
+  own->turn_faces(turned);
+  return own;
+}
 
 // Puts a surface together: a vertex for each fan.
 class Assembler {
@@ -136,6 +146,7 @@ class Assembler {
     result.report = report_;
     result.mesh = TriangleMesh(std::move(positions), std::move(faces), std::move(polygons));
     result.mesh.set_source(std::move(source));
+    result.mesh.set_attributes(turned_attributes(mesh_, faces_.turned));
     result.half_edges = HalfEdges(result.mesh);
     return result;
   }

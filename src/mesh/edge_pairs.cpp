@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include <mimicry/mesh/mesh_source.h>
+#include <mimicry/mesh/connect.h>
 
 namespace mimicry {
 namespace {

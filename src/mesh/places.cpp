@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include <mimicry/base/finite.h>
+#include "base/finite.h"
 
 namespace mimicry {
 namespace {

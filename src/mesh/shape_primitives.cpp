@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <mimicry/base/random.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "mesh/quads.h"
 

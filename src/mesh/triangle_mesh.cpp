@@ -5,8 +5,9 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 #include <mimicry/mesh/triangle_mesh.h>
+
+#include "base/finite.h"
 
 namespace mimicry {
 
@@ -32,6 +33,12 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces,
   positions_.shrink_to_fit();
   faces_.shrink_to_fit();
   polygons_.shrink_to_fit();
+}
+
+void TriangleMesh::set_attributes(std::shared_ptr<const MeshAttributes> attributes) {
+  if (attributes && attributes->empty()) attributes.reset();
+  if (attributes) attributes->require_fit(face_count());
+  attributes_ = std::move(attributes);
 }
 
 TriangleMesh TriangleMesh::with_positions(std::vector<Vec3> positions) const {

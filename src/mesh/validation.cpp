@@ -5,9 +5,10 @@
 #include <numeric>
 #include <tuple>
 
-#include <mimicry/base/finite.h>
 #include <mimicry/mesh/validation.h>
 
+#include "base/finite.h"
+#include "mesh/findings.h"
 #include "mesh/sets.h"
 
 namespace mimicry {
@@ -23,11 +24,6 @@ struct Side {
   Index low, high;  // ends of the edge, low < high
   Index h;          // half-edge 3 f + k
 };
-
-template <class Finding>
-void note(Finding& finding, Index i) {
-  if (finding.count++ == 0) finding.first = i;
-}
 
 Index tail(const TriangleMesh& mesh, Index h) {
   return mesh.face(h / 3)[at(h % 3)];

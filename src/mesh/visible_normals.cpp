@@ -1,10 +1,11 @@
+#include "mesh/visible_normals.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include <mimicry/mesh/normals.h>
-#include <mimicry/mesh/visible_normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

@@ -1,9 +1,9 @@
+#include "phong/face_equation.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/phong/face_equation.h>
-
-namespace mimicry::phong {
+namespace mimicry {
 namespace {
 
 // Barycentric coordinates this far below 0 are the rounding of a point on an edge, which both its
@@ -401,4 +401,4 @@ void FaceEquation::search_pieces(double size, Solutions& solutions) const {
   }
 }
 
-}  // namespace mimicry::phong
+}  // namespace mimicry

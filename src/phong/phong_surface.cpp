@@ -1,11 +1,12 @@
+#include "phong/phong_surface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/phong/phong_surface.h>
 
-namespace mimicry::phong {
+namespace mimicry {
 namespace {
 
 constexpr int kSteps = 6;
@@ -76,7 +77,7 @@ std::vector<Index> face_order(std::span<const Face> faces, std::span<const doubl
     for (const Index v : faces[f])
       centres[f].head(dimension) += Eigen::Map<const Eigen::VectorXd>(
           values.data() + at(v) * static_cast<std::size_t>(dimension), dimension);
-  return spatial::leaf_order<kDimension>(centres);
+  return leaf_order<kDimension>(centres);
 }
 
 PhongSurface::PhongSurface(const TriangleMesh& mesh, const HalfEdges& half_edges,
@@ -160,7 +161,7 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   double distance2 = kInfinity;
   // All solutions within the bound, which shrinks to the nearest.
   const auto search = [&](double within2) {
-    bvh_.nearest(y, within2, [&](Index face, spatial::NoPack, double bound2) {
+    bvh_.nearest(y, within2, [&](Index face, NoPack, double bound2) {
       if (face == best.face) return bound2;
       consider(face, y, best, distance2);
       return std::min(bound2, distance2);
@@ -177,7 +178,7 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   if (best.face == kNone) {
     // The face nearest to y need not have a solution, and until one is known nothing bounds the
     // search: it goes out by steps.
-    bvh_.nearest(y, nearest2, [&](Index face, spatial::NoPack, double bound2) {
+    bvh_.nearest(y, nearest2, [&](Index face, NoPack, double bound2) {
       const double d2 = distance2_below(triangle(face), y);
       if (d2 < nearest2) {
         nearest2 = d2;
@@ -193,7 +194,7 @@ std::optional<PhongPoint> PhongSurface::project(const Vec8& y, Index hint) const
   if (best.face != kNone) search(distance2);
   const double near2 = kStanding * kStanding * size_ * size_;
   if (distance2 > near2)
-    bvh_.nearest(y, near2, [&](Index face, spatial::NoPack, double bound2) {
+    bvh_.nearest(y, near2, [&](Index face, NoPack, double bound2) {
       if (!repeats_corner(faces_[at(face)].corners))
         consider_standing(face, triangle(face), y, near2, best, distance2);
       return bound2;
@@ -220,4 +221,4 @@ std::size_t PhongSurface::memory_bytes() const {
          faces_.capacity() * sizeof(Record) + bvh_.memory_bytes();
 }
 
-}  // namespace mimicry::phong
+}  // namespace mimicry

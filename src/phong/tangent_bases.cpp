@@ -1,3 +1,5 @@
+#include "phong/tangent_bases.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,10 +7,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <mimicry/base/float_traps.h>
-#include <mimicry/phong/tangent_bases.h>
+#include "base/float_traps.h"
 
-namespace mimicry::phong {
+namespace mimicry {
 namespace {
 
 using Mat8 = Eigen::Matrix<double, kDimension, kDimension>;
@@ -141,4 +142,4 @@ std::vector<Basis> tangent_bases(const HalfEdges& half_edges, std::span<const Fa
   return bases;
 }
 
-}  // namespace mimicry::phong
+}  // namespace mimicry

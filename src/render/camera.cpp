@@ -1,8 +1,8 @@
+#include "render/camera.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include <mimicry/render/camera.h>
 
 #include "render/checks.h"
 #include "render/embree_scope.h"

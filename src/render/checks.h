@@ -4,7 +4,8 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/scene.h>
+
+#include "render/scene.h"
 
 namespace mimicry::render {
 

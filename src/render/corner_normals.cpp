@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <xmmintrin.h>
 #endif
 
-#include <mimicry/base/float_traps.h>
+#include "base/float_traps.h"
 
 namespace mimicry::render {
 

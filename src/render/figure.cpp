@@ -1,11 +1,11 @@
+#include "render/figure.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/text.h>
-
 #include "render/checks.h"
+#include "render/palette.h"
+#include "render/text.h"
 
 namespace mimicry::render {
 namespace {

@@ -1,4 +1,4 @@
-#include <mimicry/render/text.h>
+#include "render/text.h"
 
 // MIMICRY_FONT is the path of the font file, set by the build.
 asm(".section .rodata\n"

@@ -1,7 +1,7 @@
+#include "render/image.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include <mimicry/render/image.h>
 
 namespace mimicry::render {
 namespace {

@@ -1,7 +1,8 @@
+#include "render/png.h"
+
 #include <png.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/png.h>
 
 namespace mimicry::render {
 

@@ -5,7 +5,7 @@
 
 #include <embree3/rtcore.h>
 
-#include <mimicry/render/scene.h>
+#include "render/scene.h"
 
 namespace mimicry::render {
 

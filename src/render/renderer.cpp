@@ -1,10 +1,11 @@
+#include "render/renderer.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <thread>
 
 #include <mimicry/base/parallel.h>
-#include <mimicry/render/renderer.h>
 
 #include "render/checks.h"
 #include "render/corner_normals.h"

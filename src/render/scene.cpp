@@ -1,6 +1,6 @@
-#include <cmath>
+#include "render/scene.h"
 
-#include <mimicry/render/scene.h>
+#include <cmath>
 
 #include "render/checks.h"
 

@@ -1,11 +1,12 @@
+#include "render/text.h"
+
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include <mimicry/base/float_traps.h>
-#include <mimicry/render/text.h>
+#include "base/float_traps.h"
 
 #define STBTT_STATIC
 #define STB_TRUETYPE_IMPLEMENTATION

@@ -8,10 +8,9 @@
 
 #include <boost/asio/io_context.hpp>
 
-#include <mimicry/serve/server.h>
-
 #include "serve/bake_process.h"
 #include "serve/message.h"
+#include "serve/server.h"
 
 namespace mimicry::serve {
 

@@ -70,7 +70,8 @@ std::string write_certificate(const Certificate& certificate) {
 
 Certificate make_certificate(const std::vector<std::string>& addresses) {
   Certificate made;
-  made.key.reset(EVP_EC_gen("P-256"));
+  char curve[] = "P-256";
+  made.key.reset(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", curve));
   made.certificate.reset(X509_new());
   require(made.key && made.certificate);
   X509* c = made.certificate.get();

@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
+
+#include "files/file.h"
+#include "files/names.h"
 
 namespace mimicry::serve {
 namespace {
@@ -35,11 +37,11 @@ Certificate kept_certificate(const std::string& data_folder,
   if (trouble)
     throw Error(ErrorKind::io, data_folder + ": the folder cannot be made: " + trouble.message() +
                                    "; name another with --data");
-  const fs::path kept = fs::path(data_folder) / "certificate.pem";
+  const fs::path kept = to_path(data_folder) / "certificate.pem";
   // A headset that has accepted it is not asked again.
   if (fs::exists(kept, trouble)) {
     try {
-      Certificate known = read_certificate(files::read_file(kept.string()), kept.string());
+      Certificate known = read_certificate(read_file(to_text(kept)), to_text(kept));
       if (serves(known, addresses)) {
         fs::permissions(kept, fs::perms::owner_read | fs::perms::owner_write, trouble);
         return known;
@@ -48,7 +50,7 @@ Certificate kept_certificate(const std::string& data_folder,
     }
   }
   Certificate made = make_certificate(addresses);
-  files::write_file_atomically(kept.string(), write_certificate(made));
+  write_file_atomically(to_text(kept), write_certificate(made));
   return made;
 }
 

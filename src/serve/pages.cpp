@@ -9,8 +9,9 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
 
+#include "files/file.h"
+#include "files/names.h"
 #include "serve/limits.h"
 #include "serve/text.h"
 
@@ -110,7 +111,7 @@ Pages::Pages(const std::string& folder) {
     if (gone || bytes > limits::kStudioBytes || forms.size() == limits::kStudioFiles)
       too_much(folder);
     const std::string path = "/" + it->path().lexically_relative(root).generic_string();
-    std::string content = files::read_file(file.string());
+    std::string content = read_file(to_text(file));
     std::string tag = tag_of(content);
     forms.emplace(path, Form{std::move(content), std::move(tag)});
   }

@@ -1,3 +1,5 @@
+#include "serve/server.h"
+
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -10,9 +12,8 @@
 #include <openssl/ssl.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/files/file.h>
-#include <mimicry/serve/server.h>
 
+#include "files/file.h"
 #include "serve/bake_queue.h"
 #include "serve/certificate.h"
 #include "serve/connection.h"
@@ -48,7 +49,7 @@ KnownHost known_host(const ServeOptions& options) {
 
 Certificate used_certificate(const ServeOptions& options) {
   if (!options.certificate.empty())
-    return read_certificate(files::read_file(options.certificate), options.certificate);
+    return read_certificate(read_file(options.certificate), options.certificate);
   std::vector<std::string> addresses = machine_addresses();
   addresses.insert(addresses.begin(), "127.0.0.1");
   return kept_certificate(options.data_folder, addresses);

@@ -1,24 +1,46 @@
-#include <cassert>
+#include <string>
 
 #include <mimicry/base/error.h>
 #include <mimicry/session/stroke_session.h>
 
-namespace mimicry::session {
+#include "curve/curve_builder.h"
 
-StrokeSession::StrokeSession(const technique::Canvas& canvas,
-                             const technique::TechniqueInfo& technique,
+namespace mimicry {
+namespace {
+
+const Canvas& sound(const Canvas& canvas, const TechniqueInfo& technique) {
+  if (!canvas.target) throw Error(ErrorKind::invalid_input, "session: the canvas has no target");
+  if (technique.needs_bake && !canvas.projector)
+    throw Error(ErrorKind::invalid_input,
+                "technique '" + technique.name +
+                    "' needs the target's bake; bake it, or make the canvas with load_canvas");
+  return canvas;
+}
+
+}  // namespace
+
+StrokeSession::StrokeSession(const Canvas& canvas, const TechniqueInfo& technique,
                              const SessionOptions& options)
-    : canvas_(canvas),
+    : canvas_(sound(canvas, technique)),
       technique_(&technique),
       options_(options),
-      builder_(canvas.target->mesh(), canvas.target->half_edges()) {
-  assert(!technique.needs_bake || canvas.projector);
-  builder_.reserve(options.expected_frames);
+      own_options_(options.technique.block(technique)),
+      memory_(technique.first_memory),
+      builder_(std::make_unique<CurveBuilder>(canvas.target.surface())) {
+  builder_->reserve(options.expected_frames);
+}
+
+StrokeSession::~StrokeSession() = default;
+StrokeSession::StrokeSession(StrokeSession&&) noexcept = default;
+StrokeSession& StrokeSession::operator=(StrokeSession&&) noexcept = default;
+
+const ProjectedCurve& StrokeSession::curve() const {
+  return builder_->curve();
 }
 
 void StrokeSession::begin(const Similarity& model_to_world) {
-  builder_.clear();
-  memory_ = {};
+  builder_->clear();
+  memory_ = technique_->first_memory;
   model_to_world_ = model_to_world;
   canvas_.metres_per_unit = model_to_world.scale;
   counts_ = {};
@@ -28,45 +50,51 @@ void StrokeSession::begin(const Similarity& model_to_world) {
   drawing_ = true;
 }
 
-FrameStatus StrokeSession::add(const stroke::Frame& frame) {
+FrameStatus StrokeSession::add(const Frame& frame) {
   const FrameStatus status = drawing_ ? judge(frame) : FrameStatus::rejected;
   ++counts_[status];
   ++frame_;
   return status;
 }
 
-FrameStatus StrokeSession::judge(const stroke::Frame& frame) {
-  if (!stroke::is_usable(frame, last_time_s_)) return FrameStatus::rejected;
+FrameStatus StrokeSession::judge(const Frame& frame) {
+  if (!is_usable(frame, last_time_s_)) return FrameStatus::rejected;
   last_time_s_ = frame.time_s;
-  const bool first = builder_.curve().points.empty();
+  const bool first = builder_->curve().points.empty();
   const Vec3& pen = frame.controller.position;
   if (!first && (pen - last_pen_).norm() < options_.minimum_motion_m) return FrameStatus::still;
 
-  const stroke::Frame model = stroke::to_model(frame, model_to_world_);
-  const technique::Step step = technique_->step(canvas_, memory_, model, options_.technique);
-  memory_ = step.memory;
+  const Frame model = to_model(frame, model_to_world_);
+  const TechniqueStep step = technique_->step(canvas_, model, own_options_.data(), memory_.data());
   ++answers_[step.answer];
-  if (step.answer == technique::Answer::miss) {
-    if (options_.misses == MissPolicy::split) builder_.break_here();
+  // A point that is not on the mesh, of a technique of the user's own, is none.
+  const bool is_point =
+      step.surface.face >= 0 && step.surface.face < canvas_.target.mesh().face_count();
+  if (step.answer == Answer::miss || !is_point) {
+    if (options_.misses == MissPolicy::split) builder_->break_here();
     return FrameStatus::missed;
   }
   last_pen_ = pen;
-  builder_.append({step.surface, step.position, canvas_.target->normal(step.surface), frame_,
-                   frame.time_s, (model.controller.position - step.position).norm()});
+  builder_->append({step.surface, step.position, canvas_.target.normal(step.surface), frame_,
+                    frame.time_s, (model.controller.position - step.position).norm()});
   return FrameStatus::inked;
 }
 
-curve::ProjectedCurve project(const technique::Canvas& canvas,
-                              const technique::TechniqueInfo& technique,
-                              const stroke::Stroke& stroke, const SessionOptions& options) {
-  stroke::require_usable(stroke);
+ProjectedStroke project(const Canvas& canvas, const TechniqueInfo& technique, const Stroke& stroke,
+                        const SessionOptions& options) {
+  require_usable(stroke);
   SessionOptions sized = options;
   sized.expected_frames = stroke.frames.size();
   StrokeSession session(canvas, technique, sized);
   session.begin(stroke.model_to_world);
-  for (const stroke::Frame& frame : stroke.frames) session.add(frame);
+  ProjectedStroke result;
+  result.statuses.reserve(stroke.frames.size());
+  for (const Frame& frame : stroke.frames) result.statuses.push_back(session.add(frame));
   session.end();
-  return session.curve();
+  result.curve = session.curve();
+  result.counts = session.counts();
+  result.answers = session.answers();
+  return result;
 }
 
-}  // namespace mimicry::session
+}  // namespace mimicry

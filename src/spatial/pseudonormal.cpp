@@ -1,6 +1,6 @@
-#include <mimicry/spatial/pseudonormal.h>
+#include "spatial/pseudonormal.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 
 Vec3 pseudonormal(const Target& target, const SurfacePoint& p) {
   int corner = 0, off = 0, zeros = 0;
@@ -30,4 +30,4 @@ std::optional<Vec3> distance_gradient(const Target& target, const Vec3& y, Index
   return pseudonormal(target, closest->surface);
 }
 
-}  // namespace mimicry::spatial
+}  // namespace mimicry

@@ -4,10 +4,14 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/spatial/surface_search.h>
 #include <mimicry/spatial/target.h>
 
-namespace mimicry::spatial {
+#include "mesh/visible_normals.h"
+#include "spatial/bvh.h"
+#include "spatial/surface_search.h"
+#include "spatial/triangle.h"
+
+namespace mimicry {
 namespace {
 
 constexpr double kSmallestSize = 1e-30, kLargestSize = 1e30, kFarthestQuery = 1e60;
@@ -85,30 +89,51 @@ Vec3 unit(const Vec3& direction) {
 
 }  // namespace
 
+struct Target::State {
+  std::vector<Vec3> moved;            // #V, room for update_positions; empty: as the caller numbers
+  std::vector<Vec3> visible_normals;  // #V
+  Bvh<3, Triangle> bvh;
+  Eigen::AlignedBox3d box;
+  double diagonal = 0.0;
+};
+
 Target::Target(TriangleMesh mesh, const TargetOptions& options) {
   if (mesh.face_count() == 0) refuse("the mesh has no faces; give one with triangles");
-  Connected connected = connect(std::move(mesh), {.join = options.join});
-  mesh_ = std::move(connected.mesh);
-  half_edges_ = std::move(connected.half_edges);
-  connection_ = connected.report;
-  check_positions(mesh_.positions(), mesh_);
-  if (options.strict) check_flawless(connection_);
-  if (mesh_.source()) moved_.resize(mesh_.positions().size());
-  normals_ = angle_weighted_normals(mesh_);
-  visible_normals_ = normals_;
-  make_visible(mesh_, half_edges_, visible_normals_);
-  bvh_ = Bvh<3, Triangle>(mesh_.face_count(),
-                          [&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
-  box_ = box_of(mesh_.positions());
-  diagonal_ = box_.diagonal().norm();
+  Surface surface(std::move(mesh), {.join = options.join});
+  check_positions(surface.mesh().positions(), surface.mesh());
+  if (options.strict) check_flawless(surface.connection());
+  surface_ = std::move(surface);
+  state_ = std::make_shared<State>();
+  const std::span<const Vec3> positions = surface_.mesh().positions();
+  const std::span<const Face> faces = surface_.mesh().faces();
+  if (surface_.mesh().source()) state_->moved.resize(positions.size());
+  state_->visible_normals.assign(vertex_normals().begin(), vertex_normals().end());
+  make_visible(surface_.mesh(), surface_.half_edges(), state_->visible_normals);
+  state_->bvh = Bvh<3, Triangle>(surface_.mesh().face_count(),
+                                 [&](Index f) { return triangle_of(positions, faces[at(f)]); });
+  state_->box = box_of(positions);
+  state_->diagonal = state_->box.diagonal().norm();
+}
+
+std::span<const Vec3> Target::visible_normals() const {
+  return state_->visible_normals;
+}
+
+const Eigen::AlignedBox3d& Target::bounding_box() const {
+  return state_->box;
+}
+
+double Target::diagonal() const {
+  return state_->diagonal;
 }
 
 std::optional<ClosestPoint> Target::closest_point(const Vec3& y, double upper_bound,
                                                   Index hint) const {
   if (!is_usable(y) || std::isnan(upper_bound) || upper_bound < 0.0) return std::nullopt;
   const double bound2 = upper_bound <= kFarthestQuery ? upper_bound * upper_bound : kInfinity;
-  const NearestTriangle best = nearest_triangle(bvh_, y, bound2, hint, [&](Index f) {
-    return triangle_of(mesh_.positions(), mesh_.face(f));
+  const TriangleMesh& mesh = surface_.mesh();
+  const NearestTriangle best = nearest_triangle(state_->bvh, y, bound2, hint, [&](Index f) {
+    return triangle_of(mesh.positions(), mesh.face(f));
   });
   if (best.surface.face == kNone) return std::nullopt;
   return ClosestPoint{best.surface, best.position, std::sqrt(best.distance2)};
@@ -117,7 +142,7 @@ std::optional<ClosestPoint> Target::closest_point(const Vec3& y, double upper_bo
 std::optional<RayHit> Target::first_hit(const Vec3& origin, const Vec3& direction) const {
   const Vec3 d = unit(direction);
   if (!is_usable(origin) || d.isZero(0.0)) return std::nullopt;
-  const TriangleOnRay hit = first_on_ray(bvh_, Ray(origin, d));
+  const TriangleOnRay hit = first_on_ray(state_->bvh, Ray(origin, d));
   if (hit.surface.face == kNone) return std::nullopt;
   return RayHit{hit.surface, hit.position, hit.t};
 }
@@ -126,7 +151,7 @@ void Target::all_hits(const Vec3& origin, const Vec3& direction, std::vector<Ray
   const Vec3 d = unit(direction);
   if (!is_usable(origin) || d.isZero(0.0)) return;
   const auto before = static_cast<std::ptrdiff_t>(hits.size());
-  each_on_ray(bvh_, Ray(origin, d), [&](const TriangleOnRay& hit) {
+  each_on_ray(state_->bvh, Ray(origin, d), [&](const TriangleOnRay& hit) {
     hits.push_back({hit.surface, hit.position, hit.t});
   });
   std::sort(hits.begin() + before, hits.end(), [](const RayHit& a, const RayHit& b) {
@@ -135,27 +160,30 @@ void Target::all_hits(const Vec3& origin, const Vec3& direction, std::vector<Ray
 }
 
 void Target::update_positions(std::span<const Vec3> positions) {
-  if (const MeshSource* source = mesh_.source()) {
+  Surface::Data& surface = *surface_.data_;
+  TriangleMesh& mesh = surface.mesh;
+  std::vector<Vec3>& moved = state_->moved;
+  if (const MeshSource* source = mesh.source()) {
     if (positions.size() != source->surface_vertex.size())
       refuse(std::to_string(positions.size()) + " new positions for " +
              std::to_string(source->surface_vertex.size()) + " vertices");
-    for (std::size_t v = 0; v < moved_.size(); ++v) moved_[v] = positions[at(source->vertex[v])];
-    positions = moved_;
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = positions[at(source->vertex[v])];
+    positions = moved;
   }
-  if (positions.size() == mesh_.positions().size()) check_positions(positions, mesh_);
-  mesh_.set_positions(positions);
-  angle_weighted_normals(mesh_, normals_);
-  std::copy(normals_.begin(), normals_.end(), visible_normals_.begin());
-  make_visible(mesh_, half_edges_, visible_normals_);
-  bvh_.refit([&](Index f) { return triangle_of(mesh_.positions(), mesh_.face(f)); });
-  box_ = box_of(mesh_.positions());
-  diagonal_ = box_.diagonal().norm();
+  if (positions.size() == mesh.positions().size()) check_positions(positions, mesh);
+  mesh.set_positions(positions);
+  angle_weighted_normals(mesh, surface.normals);
+  std::copy(surface.normals.begin(), surface.normals.end(), state_->visible_normals.begin());
+  make_visible(mesh, surface.half_edges, state_->visible_normals);
+  state_->bvh.refit([&](Index f) { return triangle_of(mesh.positions(), mesh.face(f)); });
+  state_->box = box_of(mesh.positions());
+  state_->diagonal = state_->box.diagonal().norm();
 }
 
 std::size_t Target::memory_bytes() const {
-  return mesh_.memory_bytes() + half_edges_.memory_bytes() +
-         (normals_.capacity() + visible_normals_.capacity() + moved_.capacity()) * sizeof(Vec3) +
-         bvh_.memory_bytes();
+  return surface_.memory_bytes() +
+         (state_->visible_normals.capacity() + state_->moved.capacity()) * sizeof(Vec3) +
+         state_->bvh.memory_bytes();
 }
 
-}  // namespace mimicry::spatial
+}  // namespace mimicry

@@ -1,13 +1,14 @@
+#include "spatial/winding.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include <mimicry/spatial/pseudonormal.h>
-#include <mimicry/spatial/winding.h>
+#include "spatial/pseudonormal.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
 constexpr Index kMostInLeaf = 8;
@@ -132,4 +133,4 @@ std::optional<SignedDistance> signed_distance(const Target& target, const Windin
   return result;
 }
 
-}  // namespace mimicry::spatial
+}  // namespace mimicry

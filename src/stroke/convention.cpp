@@ -1,8 +1,8 @@
 #include <array>
 
-#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 namespace {
 
 Mat3 rows(const Vec3& x, const Vec3& y, const Vec3& z) {
@@ -84,4 +84,4 @@ const CoordinateConvention* find_convention(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

@@ -1,9 +1,10 @@
 #include <cmath>
 
-#include <mimicry/base/finite.h>
-#include <mimicry/stroke/frame.h>
+#include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+#include "base/finite.h"
+
+namespace mimicry {
 namespace {
 
 Pose to_model(const Pose& world, const Similarity& model_to_world) {
@@ -61,4 +62,4 @@ bool is_usable(const Frame& frame, double previous_time_s) {
          is_fraction(frame.trigger) && (!frame.pressure || is_fraction(*frame.pressure));
 }
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

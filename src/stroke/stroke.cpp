@@ -1,10 +1,11 @@
 #include <cmath>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+#include "base/finite.h"
+
+namespace mimicry {
 
 void require_usable(const Stroke& stroke) {
   const std::string name = "stroke '" + stroke.id + "'";
@@ -26,4 +27,4 @@ void require_usable(const Stroke& stroke) {
   }
 }
 
-}  // namespace mimicry::stroke
+}  // namespace mimicry

@@ -7,10 +7,11 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/study/bootstrap.h>
-#include <mimicry/study/normal_distribution.h>
+#include <mimicry/study/comparison.h>
 
-namespace mimicry::study {
+#include "study/normal_distribution.h"
+
+namespace mimicry {
 namespace {
 
 double quantile(const std::vector<double>& sorted, double p) {
@@ -110,4 +111,4 @@ Interval bootstrap_interval(std::span<const double> values, const Statistic& sta
   return {quantile(resampled, adjusted(tail)), quantile(resampled, adjusted(1 - tail))};
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

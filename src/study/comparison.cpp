@@ -6,9 +6,10 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/study/comparison.h>
-#include <mimicry/study/holm.h>
 
-namespace mimicry::study {
+#include "study/holm.h"
+
+namespace mimicry {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
@@ -82,4 +83,4 @@ std::vector<Comparison> compare(std::span<const PairedMeasure> measures,
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -3,9 +3,9 @@
 #include <limits>
 #include <vector>
 
-#include <mimicry/study/consistency.h>
+#include <mimicry/study/measures.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 Consistency consistency(std::span<const double> first, std::span<const double> repeat) {
   assert(first.size() == repeat.size());
@@ -42,4 +42,4 @@ Consistency consistency(std::span<const double> first, std::span<const double> r
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

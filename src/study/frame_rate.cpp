@@ -3,14 +3,15 @@
 #include <cmath>
 #include <limits>
 
-#include <mimicry/study/frame_rate.h>
-#include <mimicry/study/polyline.h>
+#include <mimicry/study/recording.h>
 
-namespace mimicry::study {
+#include "study/polyline.h"
 
-stroke::Stroke thinned(const stroke::Stroke& stroke, int n) {
+namespace mimicry {
+
+Stroke thinned(const Stroke& stroke, int n) {
   assert(n >= 1);
-  stroke::Stroke result = stroke;
+  Stroke result = stroke;
   result.frames.clear();
   for (std::size_t i = 0; i < stroke.frames.size(); ++i)
     if (i % static_cast<std::size_t>(n) == 0 || i + 1 == stroke.frames.size())
@@ -18,7 +19,7 @@ stroke::Stroke thinned(const stroke::Stroke& stroke, int n) {
   return result;
 }
 
-double frame_rate_dependence_m(const stroke::Stroke& stroke, const ProjectFunction& project,
+double frame_rate_dependence_m(const Stroke& stroke, const ProjectFunction& project,
                                std::span<const int> divisors) {
   double largest = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Vec3> whole = project(stroke);
@@ -32,4 +33,4 @@ double frame_rate_dependence_m(const stroke::Stroke& stroke, const ProjectFuncti
   return largest;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

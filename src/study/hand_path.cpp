@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <string>
 
-#include <mimicry/base/finite.h>
-
+#include "base/finite.h"
 #include "study/simulation_check.h"
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // Gaussian along a closed path, or one that goes on beyond its ends: as the point reflection there
@@ -53,7 +52,7 @@ Vec3 turned_within(const Vec3& direction, const Vec3& other, double most_rad) {
 
 // The normals of what surrounds the path, also around an edge: who aims looks at more than the
 // point.
-std::vector<Vec3> surrounding_normals(const spatial::Target& target, const Similarity& place,
+std::vector<Vec3> surrounding_normals(const Target& target, const Similarity& place,
                                       const Path& path) {
   constexpr double kAround_m = 0.015;
   constexpr int kDirections = 8;
@@ -90,8 +89,7 @@ std::vector<Vec3> surrounding_normals(const spatial::Target& target, const Simil
 
 }  // namespace
 
-Path resampled(const spatial::Target& target, const stroke::Intention& intended,
-               const Similarity& place) {
+Path resampled(const Target& target, const Intention& intended, const Similarity& place) {
   std::vector<SurfacePoint> surface = intended.points;
   for (const SurfacePoint& p : surface)
     if (p.face < 0 || p.face >= target.mesh().face_count())
@@ -128,7 +126,7 @@ Path resampled(const spatial::Target& target, const stroke::Intention& intended,
   return path;
 }
 
-HandPath hand_path(const Path& path, const spatial::Target& target, const Similarity& place,
+HandPath hand_path(const Path& path, const Target& target, const Similarity& place,
                    const SimulationOptions& options) {
   const Vec3 viewer = options.viewer.normalized();
   Vec3 mean = Vec3::Zero();
@@ -212,4 +210,4 @@ Vec3 sample(const std::vector<Vec3>& x, double i) {
   return x[low] + (i - static_cast<double>(low)) * (x[low + 1] - x[low]);
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 #include <mimicry/spatial/target.h>
 #include <mimicry/study/simulate.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 inline Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   const double length = v.norm();
@@ -21,8 +21,7 @@ struct Path {
 };
 
 /// Throws Error(invalid_input) for a curve of another mesh, or of fewer than two distinct points.
-Path resampled(const spatial::Target& target, const stroke::Intention& intended,
-               const Similarity& place);
+Path resampled(const Target& target, const Intention& intended, const Similarity& place);
 
 /// The hand's path for any distance: base + distance * away.
 struct HandPath {
@@ -30,7 +29,7 @@ struct HandPath {
   std::vector<Vec3> away;
 };
 
-HandPath hand_path(const Path& path, const spatial::Target& target, const Similarity& place,
+HandPath hand_path(const Path& path, const Target& target, const Similarity& place,
                    const SimulationOptions& options);
 
 /// Where on the path (in steps) the hand is at each frame: two-thirds power law, from rest to rest.
@@ -40,4 +39,4 @@ std::vector<double> progress(const std::vector<Vec3>& hand, int frames, double s
 /// Between two points of a path. i: in steps, within it.
 Vec3 sample(const std::vector<Vec3>& x, double i);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,11 +1,11 @@
+#include "study/holm.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include <mimicry/study/holm.h>
-
-namespace mimicry::study {
+namespace mimicry {
 
 std::vector<double> holm_adjusted(std::span<const double> p) {
   std::vector<std::size_t> order;
@@ -22,4 +22,4 @@ std::vector<double> holm_adjusted(std::span<const double> p) {
   return adjusted;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

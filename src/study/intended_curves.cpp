@@ -7,9 +7,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // A path near the surface, u in [0, 1], in the shape's units.
@@ -198,11 +198,11 @@ std::vector<Guide> guides(std::string_view shape) {
               "intended curves: no built-in shape is called '" + std::string(shape) + "'");
 }
 
-stroke::Intention mapped(const Guide& guide, const spatial::Target& target) {
+Intention mapped(const Guide& guide, const Target& target) {
   // Much denser than the result, so that the result can be chosen by length on the surface.
   constexpr int kSamples = 2048;
   const double spacing = 0.005 * target.diagonal();
-  stroke::Intention curve{guide.name, guide.closed, {}};
+  Intention curve{guide.name, guide.closed, {}};
   Vec3 previous = Vec3::Zero();
   SurfacePoint last;
   double travelled = 0;
@@ -229,9 +229,8 @@ stroke::Intention mapped(const Guide& guide, const spatial::Target& target) {
 
 }  // namespace
 
-std::vector<stroke::Intention> intended_curves(std::string_view shape,
-                                               const spatial::Target& target) {
-  std::vector<stroke::Intention> curves;
+std::vector<Intention> intended_curves(std::string_view shape, const Target& target) {
+  std::vector<Intention> curves;
   const std::vector<Guide> paths = guides(shape);
   if (shape == "noisy-cube") {
     // Same faces as the plain cube of this resolution: closest points on spikes would jump.
@@ -241,7 +240,7 @@ std::vector<stroke::Intention> intended_curves(std::string_view shape,
                   "intended curves: noisy-cube: the target has " +
                       std::to_string(target.mesh().face_count()) +
                       " faces, not 12 n^2; pass the mesh that make_shape gave");
-    const spatial::Target cube(make_box(n, n, n, Vec3::Constant(kCubeHalfSize)));
+    const Target cube(make_box(n, n, n, Vec3::Constant(kCubeHalfSize)));
     for (const Guide& guide : paths) curves.push_back(mapped(guide, cube));
     return curves;
   }
@@ -249,4 +248,4 @@ std::vector<stroke::Intention> intended_curves(std::string_view shape,
   return curves;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -3,11 +3,12 @@
 #include <cstddef>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curvature.h>
-#include <mimicry/curve/curve_builder.h>
-#include <mimicry/study/keypoints.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+#include "curve/curve_builder.h"
+
+namespace mimicry {
 namespace {
 
 // A straight curve turns by rounding only; no bend is that small.
@@ -20,13 +21,13 @@ struct Profile {
   double mean = 0.0;            // of the bending, along the length
 };
 
-Profile profile_of(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                   std::span<const SurfacePoint> points, double metres_per_unit, double part) {
-  curve::CurveBuilder builder(mesh, half_edges);
+Profile profile_of(const Surface& surface, std::span<const SurfacePoint> points,
+                   double metres_per_unit, double part) {
+  CurveBuilder builder(surface);
   for (const SurfacePoint& p : points)
-    builder.append({p, mesh.position(p), Vec3::Zero(), kNone, 0.0, 0.0});
-  const curve::RefinedCurve refined = curve::refine(builder.curve(), mesh, half_edges);
-  const curve::CurveCurvature bends = curve::curvature(refined, mesh, half_edges);
+    builder.append({p, surface.position(p), Vec3::Zero(), kNone, 0.0, 0.0});
+  const RefinedCurve refined = refine(builder.curve(), surface);
+  const CurveCurvature bends = curvature(refined, surface);
 
   const std::size_t nodes = refined.nodes.size();
   std::vector<double> along(nodes);
@@ -100,12 +101,11 @@ void require_sound(const KeypointOptions& options, double metres_per_unit) {
 
 }  // namespace
 
-std::vector<Index> keypoints(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                             std::span<const SurfacePoint> points, double metres_per_unit,
-                             const KeypointOptions& options) {
+std::vector<Index> keypoints(const Surface& surface, std::span<const SurfacePoint> points,
+                             double metres_per_unit, const KeypointOptions& options) {
   require_sound(options, metres_per_unit);
   if (points.empty()) return {};
-  const Profile profile = profile_of(mesh, half_edges, points, metres_per_unit, options.window);
+  const Profile profile = profile_of(surface, points, metres_per_unit, options.window);
   const std::vector<double>& s = profile.places;
   const double least = std::max(options.least_gap_m, options.least_gap_part * s.back());
 
@@ -132,4 +132,4 @@ std::vector<Index> keypoints(const TriangleMesh& mesh, const HalfEdges& half_edg
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -4,17 +4,16 @@
 #include <string>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curvature.h>
-#include <mimicry/curve/curve_builder.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/polyline.h>
 
-namespace mimicry::study {
+#include "curve/curve_builder.h"
+#include "study/polyline.h"
+
+namespace mimicry {
 namespace {
 
-using curve::PieceKind;
-
-void require_measurable(const curve::ProjectedCurve& curve, std::span<const MotionSample> motion) {
+void require_measurable(const ProjectedCurve& curve, std::span<const MotionSample> motion) {
   if (curve.points.empty())
     throw Error(ErrorKind::invalid_input, "the curve is empty: nothing was drawn");
   if (motion.empty()) throw Error(ErrorKind::invalid_input, "the stroke has no frames");
@@ -27,28 +26,29 @@ void require_measurable(const curve::ProjectedCurve& curve, std::span<const Moti
   }
 }
 
-bool has_gap(const curve::ProjectedCurve& curve) {
+bool has_gap(const ProjectedCurve& curve) {
   return std::any_of(curve.pieces.begin(), curve.pieces.end(),
-                     [](const curve::Piece& piece) { return piece.kind == PieceKind::gap; });
+                     [](const Piece& piece) { return piece.kind == PieceKind::gap; });
 }
 
 // Sum of |change of the deviation| between neighbouring nodes at which it is defined.
-double total_change(const curve::CurveCurvature& curvature) {
+double total_change(const CurveCurvature& curvature) {
   double sum = 0.0;
-  std::optional<double> last;
+  bool follows = false;
+  double last = 0.0;
   for (std::size_t i = 0; i < curvature.uses.size(); ++i) {
-    if (curvature.uses[i] == curve::NodeUse::end) last.reset();
-    if (curvature.uses[i] != curve::NodeUse::measured) continue;
-    if (last) sum += std::abs(curvature.deviation[i] - *last);
+    if (curvature.uses[i] == NodeUse::end) follows = false;
+    if (curvature.uses[i] != NodeUse::measured) continue;
+    if (follows) sum += std::abs(curvature.deviation[i] - last);
+    follows = true;
     last = curvature.deviation[i];
   }
   return sum;
 }
 
-void measure_curvature(const curve::ProjectedCurve& curve, const TriangleMesh& mesh,
-                       const HalfEdges& half_edges, double length_m, Measures& m) {
-  const curve::CurveCurvature bends =
-      curve::curvature(curve::refine(curve, mesh, half_edges), mesh, half_edges);
+void measure_curvature(const ProjectedCurve& curve, const Surface& surface, double length_m,
+                       Measures& m) {
+  const CurveCurvature bends = curvature(refine(curve, surface), surface);
   m.k_e_rad_per_m = bends.total_turning / length_m;
   m.k_g_rad_per_m = bends.total_absolute_deviation / length_m;
   m.k_g_normalised_rad_per_m = bends.total_absolute_normalised / length_m;
@@ -57,7 +57,7 @@ void measure_curvature(const curve::ProjectedCurve& curve, const TriangleMesh& m
   m.undefined_nodes = bends.undefined_nodes;
 }
 
-void measure_jumps(const curve::ProjectedCurve& curve, std::span<const Vec3> drawn,
+void measure_jumps(const ProjectedCurve& curve, std::span<const Vec3> drawn,
                    std::span<const MotionSample> motion, Measures& m) {
   const auto is_known = [&](Index frame) {
     return frame >= 0 && static_cast<std::size_t>(frame) < motion.size();
@@ -114,27 +114,26 @@ IntendedCurve intended_curve(const TriangleMesh& mesh, const TargetCurve& curve,
   return intended;
 }
 
-curve::ProjectedCurve joined(const curve::ProjectedCurve& curve, const TriangleMesh& mesh,
-                             const HalfEdges& half_edges) {
+ProjectedCurve joined(const ProjectedCurve& curve, const Surface& surface) {
   if (!has_gap(curve)) return curve;
-  curve::CurveBuilder builder(mesh, half_edges);
+  CurveBuilder builder(surface);
   builder.reserve(curve.points.size());
-  for (const curve::CurvePoint& point : curve.points) builder.append(point);
-  curve::ProjectedCurve result = builder.curve();
+  for (const CurvePoint& point : curve.points) builder.append(point);
+  ProjectedCurve result = builder.curve();
   result.closed = curve.closed;
   return result;
 }
 
-Measures measure(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                 const IntendedCurve& intended, const curve::ProjectedCurve& curve,
+Measures measure(const Surface& surface, const IntendedCurve& intended, const ProjectedCurve& curve,
                  std::span<const MotionSample> motion, const MeasureOptions& options) {
+  const TriangleMesh& mesh = surface.mesh();
   require_measurable(curve, motion);
   Measures m;
   m.l_x_m = intended.length_m;
 
   std::vector<Vec3> drawn;
   drawn.reserve(curve.points.size());
-  for (const curve::CurvePoint& p : curve.points)
+  for (const CurvePoint& p : curve.points)
     drawn.push_back(intended.metres_per_unit * mesh.position(p.surface));
   const double length_m = polyline_length(drawn);
   const std::vector<Vec3> q = resample(drawn, kComparedPoints);
@@ -145,9 +144,9 @@ Measures measure(const TriangleMesh& mesh, const HalfEdges& half_edges,
   m.length_ratio = length_m / m.l_x_m;
 
   if (options.join_pieces && has_gap(curve))
-    measure_curvature(joined(curve, mesh, half_edges), mesh, half_edges, m.l_x_m, m);
+    measure_curvature(joined(curve, surface), surface, m.l_x_m, m);
   else
-    measure_curvature(curve, mesh, half_edges, m.l_x_m, m);
+    measure_curvature(curve, surface, m.l_x_m, m);
   measure_jumps(curve, drawn, motion, m);
 
   const MotionLengths moved = motion_lengths(filtered(motion));
@@ -172,4 +171,4 @@ Measures measure(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return m;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

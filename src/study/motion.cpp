@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include <mimicry/study/motion.h>
+#include <mimicry/study/measures.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // Up is kept, forward is made orthogonal to it.
@@ -27,14 +27,14 @@ double rotation_angle(const Vec3& forward, const Vec3& up, const Vec3& next_forw
 
 }  // namespace
 
-std::vector<MotionSample> motion_of(const stroke::Stroke& stroke) {
+std::vector<MotionSample> motion_of(const Stroke& stroke) {
   std::vector<MotionSample> motion;
   motion.reserve(stroke.frames.size());
   const Similarity& placed = stroke.model_to_world;
   const auto display = [&](const Vec3& x) {
     return placed.inverse_direction(x - placed.translation);
   };
-  for (const stroke::Frame& f : stroke.frames)
+  for (const Frame& f : stroke.frames)
     motion.push_back({f.time_s, display(f.head.position),
                       placed.inverse_direction(f.head.forward()),
                       placed.inverse_direction(f.head.up()), display(f.controller.position),
@@ -91,4 +91,4 @@ MotionLengths motion_lengths(std::span<const MotionSample> motion) {
   return lengths;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

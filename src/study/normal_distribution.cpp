@@ -1,10 +1,11 @@
+#include "study/normal_distribution.h"
+
 #include <cmath>
 #include <numbers>
 
 #include <mimicry/base/types.h>
-#include <mimicry/study/normal_distribution.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // Relative error below 1.15e-9 in the lower half.
@@ -61,4 +62,4 @@ double normal_quantile(double p) {
   return p <= 0.5 ? lower_quantile(p) : -lower_quantile(1 - p);
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include <mimicry/study/paper_table.h>
+#include <mimicry/study/comparison.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 bool is_near(double ours, double paper) {
@@ -63,4 +63,4 @@ Agreement agreement(const Comparison& ours, const PaperFigure& paper) {
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -8,9 +8,9 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/study/participants.h>
+#include <mimicry/study/simulate.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // Streams of a person's seed; trials use seeds of their own.
@@ -28,7 +28,7 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
   return z ^ (z >> 31);
 }
 
-double world_length(const spatial::Target& target, const stroke::Intention& curve, double scale) {
+double world_length(const Target& target, const Intention& curve, double scale) {
   double length = 0;
   for (std::size_t i = 1; i < curve.points.size(); ++i)
     length += (target.position(curve.points[i]) - target.position(curve.points[i - 1])).norm();
@@ -40,7 +40,7 @@ void shuffle(std::vector<Index>& list, Random& random) {
     std::swap(list[i - 1], list[random.below(static_cast<std::uint32_t>(i))]);
 }
 
-void require_faces(const spatial::Target& target, const stroke::Intention& curve) {
+void require_faces(const Target& target, const Intention& curve) {
   for (const SurfacePoint& p : curve.points)
     if (p.face < 0 || p.face >= target.mesh().face_count())
       throw Error(ErrorKind::invalid_input,
@@ -51,8 +51,8 @@ void require_faces(const spatial::Target& target, const stroke::Intention& curve
 
 // Where a person stands who has walked to where the curve is seen best, before drawing: within an
 // angle of its mean normal, and not below the shape.
-Vec3 standing_place(const spatial::Target& target, const stroke::Intention& curve,
-                    const Similarity& place, const Vec3& viewer, double most_rad) {
+Vec3 standing_place(const Target& target, const Intention& curve, const Similarity& place,
+                    const Vec3& viewer, double most_rad) {
   constexpr double kLowest = -0.3;
   Vec3 mean = Vec3::Zero();
   for (const SurfacePoint& p : curve.points) mean += place.direction(target.normal(p));
@@ -69,19 +69,19 @@ Vec3 standing_place(const spatial::Target& target, const stroke::Intention& curv
 
 // Of the rays from the hand to the curve, those that meet another part of the shape first: in all
 // of a steady stroke, or at its first point only.
-double blocked_share(const spatial::Target& target, const stroke::Intention& curve,
-                     const Similarity& place, SimulationOptions hand, Steering steering) {
+double blocked_share(const Target& target, const Intention& curve, const Similarity& place,
+                     SimulationOptions hand, Steering steering) {
   constexpr double kSamePart_m = 0.01;
   hand.rate_hz = 20;
   hand.drift_m = hand.tremor_m = hand.noise_m = hand.wobble_rad = 0;
   hand.turn_tremor_rad = hand.turn_noise_rad = hand.start_error_m = 0;
-  const stroke::Stroke steady = simulate(target, curve, place, hand, 1);
+  const Stroke steady = simulate(target, curve, place, hand, 1);
   std::vector<Vec3> points;
   for (const SurfacePoint& p : curve.points) points.push_back(place.point(target.position(p)));
   const std::size_t frames = steering == Steering::aims ? steady.frames.size() : 1;
   std::size_t blocked = 0;
   for (std::size_t f = 0; f < frames; ++f) {
-    const stroke::Pose& pen = steady.frames[f].controller;
+    const Pose& pen = steady.frames[f].controller;
     const auto hit = target.first_hit(place.inverse_point(pen.position),
                                       place.inverse_direction(-(pen.orientation * Vec3::UnitZ())));
     const auto is_near = [&](const Vec3& x) {
@@ -93,9 +93,8 @@ double blocked_share(const spatial::Target& target, const stroke::Intention& cur
 }
 
 // People bring the hand closer until nothing stands between it and the curve.
-double seen_from(const spatial::Target& target, const stroke::Intention& curve,
-                 const Similarity& place, SimulationOptions hand, Steering steering,
-                 double distance_m) {
+double seen_from(const Target& target, const Intention& curve, const Similarity& place,
+                 SimulationOptions hand, Steering steering, double distance_m) {
   constexpr double kCloser = 0.65;
   constexpr int kTries = 5;
   double best = distance_m, least = 2;
@@ -168,9 +167,8 @@ StudySequence study_sequence(std::span<const Index> methods, std::span<const Ind
   return sequence;
 }
 
-stroke::Intention recalled(const spatial::Target& target, const stroke::Intention& curve,
-                           std::span<const Index> keypoints, double recalled_error,
-                           std::uint64_t seed) {
+Intention recalled(const Target& target, const Intention& curve, std::span<const Index> keypoints,
+                   double recalled_error, std::uint64_t seed) {
   require_faces(target, curve);
   const Index count = static_cast<Index>(curve.points.size());
   std::vector<Index> stations(keypoints.begin(), keypoints.end());
@@ -180,7 +178,7 @@ stroke::Intention recalled(const spatial::Target& target, const stroke::Intentio
   std::sort(stations.begin(), stations.end());
   stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   Random random(seed, kRecall);
-  stroke::Intention result = curve;
+  Intention result = curve;
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
     const Index begin = stations[k], end = stations[k + 1];
     std::vector<double> way = {0.0};
@@ -209,11 +207,10 @@ stroke::Intention recalled(const spatial::Target& target, const stroke::Intentio
   return result;
 }
 
-stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention& curve,
-                          std::span<const Index> keypoints, TaskKind task,
-                          const Similarity& model_to_world, const PopulationOptions& options,
-                          const Participant& person, Steering steering, std::uint64_t trial_number,
-                          const InkFunction& ink) {
+Stroke draw_trial(const Target& target, const Intention& curve, std::span<const Index> keypoints,
+                  TaskKind task, const Similarity& model_to_world, const PopulationOptions& options,
+                  const Participant& person, Steering steering, std::uint64_t trial_number,
+                  const InkFunction& ink) {
   require_faces(target, curve);
   const std::uint64_t seed = mixed(person.seed, trial_number);
   Random random(seed, kStroke);
@@ -239,16 +236,16 @@ stroke::Stroke draw_trial(const spatial::Target& target, const stroke::Intention
   hand.head_follow = std::min(1.0, hand.head_follow);
   if (task == TaskKind::re_creating) duration *= options.recalled_pace;
   hand.least_duration_s = hand.most_duration_s = std::clamp(duration, 0.5, 60.0);
-  const stroke::Intention meant =
+  const Intention meant =
       task == TaskKind::tracing
           ? curve
           : recalled(target, curve, keypoints, options.recalled_error, mixed(seed, 1));
   hand.viewer = standing_place(target, curve, model_to_world, hand.viewer, options.standing_rad);
   hand.mean_distance_m =
       seen_from(target, meant, model_to_world, hand, steering, hand.mean_distance_m);
-  stroke::Stroke stroke = simulate_closed_loop(target, meant, model_to_world, hand, seed, ink);
+  Stroke stroke = simulate_closed_loop(target, meant, model_to_world, hand, seed, ink);
   stroke.intended = curve;
   return stroke;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

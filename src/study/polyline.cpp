@@ -1,11 +1,11 @@
+#include "study/polyline.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include <mimicry/study/polyline.h>
-
-namespace mimicry::study {
+namespace mimicry {
 
 double polyline_length(std::span<const Vec3> points) {
   double sum = 0.0;
@@ -122,4 +122,4 @@ std::size_t inversions(std::span<const Vec3> drawn, std::span<const Vec3> keypoi
   return count;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,11 +1,17 @@
 #include <algorithm>
 
-#include <mimicry/study/protocol.h>
+#include <mimicry/study/recording.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 constexpr std::array<std::string_view, 2> kMethodWords = {"Spray", "AnchorPhong"};
+constexpr std::array<std::string_view, 2> kMethodTechniques = {"spraycan", "mimicry"};
+
+Index place_in(const std::array<std::string_view, 2>& list, std::string_view word) {
+  const auto found = std::find(list.begin(), list.end(), word);
+  return found == list.end() ? kNone : static_cast<Index>(found - list.begin());
+}
 
 bool all_different(std::span<const Index> curves) {
   for (std::size_t i = 0; i < curves.size(); ++i)
@@ -23,9 +29,11 @@ std::string_view method_word(Index method) {
 }
 
 Index method_number(std::string_view word) {
-  for (std::size_t m = 0; m < kMethodWords.size(); ++m)
-    if (kMethodWords[m] == word) return static_cast<Index>(m);
-  return kNone;
+  return place_in(kMethodWords, word);
+}
+
+Index method_of_technique(std::string_view technique) {
+  return place_in(kMethodTechniques, technique);
 }
 
 std::string_view task_name(TaskKind task) {
@@ -75,4 +83,4 @@ std::vector<Index> with_repeats(std::span<const Index> curves) {
   return {curves.begin(), curves.end()};
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

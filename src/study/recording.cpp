@@ -2,11 +2,12 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
-#include <mimicry/curve/curve_builder.h>
 #include <mimicry/study/recording.h>
 
-namespace mimicry::study {
+#include "base/finite.h"
+#include "curve/curve_builder.h"
+
+namespace mimicry {
 namespace {
 
 constexpr double kRounding = 1e-3;        // of barycentrics and matrices in single precision
@@ -128,14 +129,14 @@ std::vector<MotionSample> motion_of(const RecordedStroke& stroke) {
   return motion;
 }
 
-stroke::Stroke stroke_of(const RecordedStroke& stroke) {
-  stroke::Stroke result;
+Stroke stroke_of(const RecordedStroke& stroke) {
+  Stroke result;
   result.simulated = stroke.simulated;
   result.model_to_world = placement_of(stroke);
   const Similarity& placed = result.model_to_world;
   motion_of(stroke);  // refuses what is not finite
   for_each_frame(stroke, [&](const RecordedFrame& f, std::size_t number) {
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = 1e-3 * f.time_ms;
     frame.head = {placed.point(f.head),
                   placed.rotation * orientation(f.head_forward, f.head_up, number)};
@@ -146,9 +147,9 @@ stroke::Stroke stroke_of(const RecordedStroke& stroke) {
   return result;
 }
 
-curve::ProjectedCurve curve_of(const RecordedStroke& stroke, const spatial::Target& target) {
+ProjectedCurve curve_of(const RecordedStroke& stroke, const Target& target) {
   require_readable(stroke);
-  curve::CurveBuilder builder(target.mesh(), target.half_edges());
+  CurveBuilder builder(target.surface());
   std::size_t number = 0;
   for (const RecordedPiece& piece : stroke.pieces) {
     if (!piece.frames.empty()) builder.break_here();
@@ -169,8 +170,8 @@ curve::ProjectedCurve curve_of(const RecordedStroke& stroke, const spatial::Targ
   return builder.curve();
 }
 
-RecordedStroke record(const stroke::Stroke& stroke, const curve::ProjectedCurve& curve,
-                      std::string method, const Vec3& nozzle) {
+RecordedStroke record(const Stroke& stroke, const ProjectedCurve& curve, std::string method,
+                      const Vec3& nozzle) {
   const Similarity& placed = stroke.model_to_world;
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = placed.scale * placed.rotation.toRotationMatrix();
@@ -178,11 +179,10 @@ RecordedStroke record(const stroke::Stroke& stroke, const curve::ProjectedCurve&
   RecordedStroke result;
   result.simulated = stroke.simulated;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    if (i == 0 || curve.pieces[i - 1].kind == curve::PieceKind::gap)
+    if (i == 0 || curve.pieces[i - 1].kind == PieceKind::gap)
       result.pieces.push_back({{}, method, matrix});
-    const curve::CurvePoint& q = curve.points[i];
-    const stroke::Frame f =
-        stroke::to_model(stroke.frames.at(static_cast<std::size_t>(q.frame)), placed);
+    const CurvePoint& q = curve.points[i];
+    const Frame f = to_model(stroke.frames.at(static_cast<std::size_t>(q.frame)), placed);
     RecordedFrame r;
     r.point = q.position;
     r.normal = q.normal;
@@ -201,4 +201,4 @@ RecordedStroke record(const stroke::Stroke& stroke, const curve::ProjectedCurve&
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -3,15 +3,15 @@
 #include <optional>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curve_builder.h>
-#include <mimicry/curve/self_crossing.h>
-#include <mimicry/embedding/spline.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/study/keypoints.h>
-#include <mimicry/study/sample_targets.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+#include "curve/curve_builder.h"
+#include "curve/self_crossing.h"
+#include "embedding/spline.h"
+#include "geodesic/site.h"
+
+namespace mimicry {
 namespace {
 
 constexpr double kLongestStep = 1.0 / 20.0;  // parts of the curve's length
@@ -31,26 +31,25 @@ void require_sound(const TargetSampling& options) {
   if (options.most_attempts < 1) refuse("the number of attempts is below 1");
 }
 
-curve::ProjectedCurve joined_points(const spatial::Target& target,
-                                    const std::vector<embedding::SmoothPoint>& points) {
-  curve::CurveBuilder builder(target.mesh(), target.half_edges());
-  for (const embedding::SmoothPoint& p : points)
+ProjectedCurve joined_points(const Target& target, const std::vector<SmoothPoint>& points) {
+  CurveBuilder builder(target.surface());
+  for (const SmoothPoint& p : points)
     builder.append({p.surface, p.position, Vec3::Zero(), kNone, 0.0, 0.0});
   return builder.curve();
 }
 
-bool is_continuous(const curve::ProjectedCurve& curve) {
-  const double longest = kLongestStep * curve::length(curve);
+bool is_continuous(const ProjectedCurve& curve) {
+  const double longest = kLongestStep * length(curve);
   return longest > 0.0 &&
-         std::all_of(curve.pieces.begin(), curve.pieces.end(), [&](const curve::Piece& piece) {
-           return piece.kind != curve::PieceKind::chord && piece.length <= longest;
+         std::all_of(curve.pieces.begin(), curve.pieces.end(), [&](const Piece& piece) {
+           return piece.kind != PieceKind::chord && piece.length <= longest;
          });
 }
 
-std::optional<TargetCurve> attempt(const embedding::SmoothProjector& projector,
-                                   double metres_per_unit, const TargetSampling& options,
-                                   Random& random, SamplingCounts& counts) {
-  const spatial::Target& target = projector.target();
+std::optional<TargetCurve> attempt(const SmoothProjector& projector, double metres_per_unit,
+                                   const TargetSampling& options, Random& random,
+                                   SamplingCounts& counts) {
+  const Target& target = projector.target();
   const auto first =
       static_cast<Index>(random.below(static_cast<std::uint32_t>(target.mesh().vertex_count())));
   const double k_g = random.uniform(options.least_k_g, options.most_k_g);
@@ -61,41 +60,40 @@ std::optional<TargetCurve> attempt(const embedding::SmoothProjector& projector,
     return std::nullopt;
   }
   std::vector<SurfacePoint> controls;
-  for (const Index v : vertices) controls.push_back(geodesic::vertex_point(target.half_edges(), v));
-  const auto points = embedding::clamped_b_spline_curve(projector, controls, options.points);
-  const curve::ProjectedCurve curve = joined_points(target, points);
+  for (const Index v : vertices) controls.push_back(vertex_point(target.half_edges(), v));
+  const auto points = clamped_b_spline_curve(projector, controls, options.points);
+  const ProjectedCurve curve = joined_points(target, points);
   if (!is_continuous(curve)) {
     ++counts.jumps;
     return std::nullopt;
   }
-  if (curve::self_crossing(curve::refine(curve, target.mesh(), target.half_edges()),
-                           target.mesh())) {
+  if (self_crossing(refine(curve, target.surface()), target.mesh())) {
     ++counts.self_crossing;
     return std::nullopt;
   }
   ++counts.accepted;
   TargetCurve result;
-  for (const embedding::SmoothPoint& p : points) result.points.push_back(p.surface);
-  result.keypoints = keypoints(target.mesh(), target.half_edges(), result.points, metres_per_unit);
+  for (const SmoothPoint& p : points) result.points.push_back(p.surface);
+  result.keypoints = keypoints(target.surface(), result.points, metres_per_unit);
   result.parameters = {options.controls, k_g, k_n * 180.0 / std::numbers::pi};
   return result;
 }
 
 }  // namespace
 
-std::vector<Index> control_points(const spatial::Target& target, Index first, Index count,
-                                  double k_g, double k_n_rad) {
+std::vector<Index> control_points(const Target& target, Index first, Index count, double k_g,
+                                  double k_n_rad) {
   const TriangleMesh& mesh = target.mesh();
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
-  geodesic::ExactGeodesics distances(mesh, target.half_edges());
+  ExactGeodesics distances(target.surface());
   std::vector<double> nearest(vertices, kInfinity);  // to the controls so far, in diagonals
   std::vector<Index> controls;
-  if (geodesic::vertex_point(target.half_edges(), first).face == kNone) return controls;
+  if (vertex_point(target.half_edges(), first).face == kNone) return controls;
   controls.push_back(first);
   while (static_cast<Index>(controls.size()) < count) {
     const Index last = controls.back();
     const Vec3& normal = target.vertex_normals()[static_cast<std::size_t>(last)];
-    distances.compute(geodesic::vertex_point(target.half_edges(), last));
+    distances.compute(vertex_point(target.half_edges(), last));
     Index best = kNone;
     double least = kInfinity;
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -113,7 +111,7 @@ std::vector<Index> control_points(const spatial::Target& target, Index first, In
   return controls;
 }
 
-SampledTargets sample_targets(const embedding::SmoothProjector& projector, double metres_per_unit,
+SampledTargets sample_targets(const SmoothProjector& projector, double metres_per_unit,
                               std::size_t count, const TargetSampling& options, Random random,
                               const ProgressCallback& progress) {
   require_sound(options);
@@ -138,4 +136,4 @@ SampledTargets sample_targets(const embedding::SmoothProjector& projector, doubl
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/base/finite.h>
 #include <mimicry/base/random.h>
 #include <mimicry/study/simulate.h>
 
+#include "base/finite.h"
 #include "study/hand_path.h"
 #include "study/simulation_check.h"
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 // One stream of random numbers for each cause, so that changing one leaves the others.
@@ -104,7 +104,7 @@ Quat carried(const Quat& q, const Vec3& from, const Vec3& to) {
 
 Quat small_turn(const Vec3& rotation) {
   const double angle = rotation.norm();
-  return angle > 0 ? Quat(Eigen::AngleAxisd(angle, rotation / angle)) : Quat::Identity();
+  return angle > 0 ? Quat(Eigen::AngleAxisd(angle, rotation / angle)) : Quat(Quat::Identity());
 }
 
 std::vector<Vec3> head_positions(const std::vector<Vec3>& tips, const std::vector<Vec3>& normals,
@@ -143,9 +143,8 @@ struct Plan {
   std::vector<Vec3> normals;
 };
 
-stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& intended,
-                    const Similarity& place, const SimulationOptions& options, std::uint64_t seed,
-                    const InkFunction* ink) {
+Stroke draw(const Target& target, const Intention& intended, const Similarity& place,
+            const SimulationOptions& options, std::uint64_t seed, const InkFunction* ink) {
   check_simulation(options);
   if (!std::isfinite(place.scale) || place.scale <= 0 || !is_finite(place.translation) ||
       !is_finite(place.rotation))
@@ -246,7 +245,7 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
     return middle + options.head_turn * (plan.tips[i] - middle);
   };
 
-  stroke::Stroke stroke;
+  Stroke stroke;
   stroke.id = intended.name;
   stroke.model_to_world = place;
   stroke.intended = intended;
@@ -277,7 +276,7 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
         aim_correction += options.turned_correction * step;
       }
     }
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = t;
     frame.controller.position = plan.tips[i] + disturbance[i] + correction;
 
@@ -311,18 +310,15 @@ stroke::Stroke draw(const spatial::Target& target, const stroke::Intention& inte
 
 }  // namespace
 
-stroke::Stroke simulate(const spatial::Target& target, const stroke::Intention& intended,
-                        const Similarity& model_to_world, const SimulationOptions& options,
-                        std::uint64_t seed) {
+Stroke simulate(const Target& target, const Intention& intended, const Similarity& model_to_world,
+                const SimulationOptions& options, std::uint64_t seed) {
   return draw(target, intended, model_to_world, options, seed, nullptr);
 }
 
-stroke::Stroke simulate_closed_loop(const spatial::Target& target,
-                                    const stroke::Intention& intended,
-                                    const Similarity& model_to_world,
-                                    const SimulationOptions& options, std::uint64_t seed,
-                                    const InkFunction& ink) {
+Stroke simulate_closed_loop(const Target& target, const Intention& intended,
+                            const Similarity& model_to_world, const SimulationOptions& options,
+                            std::uint64_t seed, const InkFunction& ink) {
   return draw(target, intended, model_to_world, options, seed, &ink);
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -5,9 +5,10 @@
 #include <utility>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/finite.h>
 
-namespace mimicry::study {
+#include "base/finite.h"
+
+namespace mimicry {
 namespace {
 
 // False for NaN, which must not be compared: that trips the floating-point traps.
@@ -65,4 +66,4 @@ void check_simulation(const SimulationOptions& o) {
     refuse_simulation("viewer must be a direction");
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 
 #include <mimicry/study/simulate.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 /// Throws Error(invalid_input).
 [[noreturn]] void refuse_simulation(const std::string& what);
@@ -12,4 +12,4 @@ namespace mimicry::study {
 /// Throws Error(invalid_input) naming the option that is out of its range.
 void check_simulation(const SimulationOptions& options);
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -2,9 +2,9 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/study/target_set.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 
 void require_fits(const TargetShape& shape, const TriangleMesh& mesh) {
   for (std::size_t c = 0; c < shape.curves.size(); ++c)
@@ -37,4 +37,4 @@ void require_fits(const TargetShape& shape, const TriangleMesh& mesh) {
     }
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

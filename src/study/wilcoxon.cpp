@@ -5,10 +5,11 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
-#include <mimicry/study/normal_distribution.h>
-#include <mimicry/study/wilcoxon.h>
+#include <mimicry/study/comparison.h>
 
-namespace mimicry::study {
+#include "study/normal_distribution.h"
+
+namespace mimicry {
 namespace {
 
 struct Difference {
@@ -99,4 +100,4 @@ WilcoxonResult wilcoxon_signed_rank(std::span<const double> a, std::span<const d
   return result;
 }
 
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,48 +1,30 @@
 #include "technique/pen_ray.h"
 
-namespace mimicry::technique {
-Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const Memory& memory,
-         const stroke::Frame& frame) {
-  Step step{answer, surface, position, memory};
-  step.memory.anchored = true;
-  step.memory.pen = frame.controller.position;
-  step.memory.surface = surface;
-  step.memory.position = position;
-  step.memory.time_s = frame.time_s;
-  if (!memory.anchored) {
-    step.memory.points = 1;
-  } else if (frame.controller.position != memory.pen) {
-    step.memory.points = memory.points + 1;
-    step.memory.motion = frame.controller.position - memory.pen;
-  }
-  return step;
+namespace mimicry {
+
+Stepped<SearchHint> occlude(const Canvas& canvas, const SearchHint& memory, const Frame& frame,
+                            const SightOptions& options) {
+  const Vec3 sight = frame.controller.position - frame.head.position;
+  return stepped(pen_ray(canvas, frame, sight, memory.face, options), memory, frame);
 }
 
-Step miss(const Memory& memory) {
-  return {Answer::miss, {}, Vec3::Zero(), memory};
+Stepped<SearchHint> spraycan(const Canvas& canvas, const SearchHint& memory, const Frame& frame,
+                             const SprayOptions& options) {
+  return spray(canvas, memory, frame, options);
 }
 
-Step occlude(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-             const Options& options) {
-  return pen_ray(canvas, memory, frame, frame.controller.position - frame.head.position, options);
+Stepped<NoMemory> head_centric(const Canvas& canvas, const NoMemory& memory, const Frame& frame,
+                               const NoOptions&) {
+  const auto hit = canvas.target.first_hit(frame.head.position, frame.head.forward());
+  return hit ? stepped({Answer::ray, hit->surface, hit->position}, memory, frame) : miss(memory);
 }
 
-Step spraycan(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-              const Options& options) {
-  return pen_ray(canvas, memory, frame, frame.controller.orientation * options.nozzle, options);
-}
-
-Step head_centric(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-                  const Options&) {
-  const auto hit = canvas.target->first_hit(frame.head.position, frame.head.forward());
-  return hit ? ink(Answer::ray, hit->surface, hit->position, memory, frame) : miss(memory);
-}
-
-Step snap(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame, const Options&) {
+Stepped<SearchHint> snap(const Canvas& canvas, const SearchHint& memory, const Frame& frame,
+                         const NoOptions&) {
   const auto closest =
-      canvas.target->closest_point(frame.controller.position, kInfinity, memory.surface.face);
-  return closest ? ink(Answer::closest, closest->surface, closest->position, memory, frame)
+      canvas.target.closest_point(frame.controller.position, kInfinity, memory.face);
+  return closest ? stepped({Answer::closest, closest->surface, closest->position}, memory, frame)
                  : miss(memory);
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace mimicry::technique {
+namespace mimicry {
 
 struct CubicRoots {
   int count = 0;
@@ -70,4 +70,4 @@ inline CubicRoots cubic_roots(double c0, double c1, double c2, double c3) {
   return roots;
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

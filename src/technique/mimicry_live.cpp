@@ -3,14 +3,13 @@
 #include <cstdint>
 #include <optional>
 
-#include <mimicry/spatial/triangle.h>
-
+#include "spatial/triangle.h"
 #include "technique/normal_foot.h"
+#include "technique/pen_ray.h"
 #include "technique/section_walk.h"
 #include "technique/soft_anchor.h"
-#include "technique/steps.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 // In units of |r - q|, how far the hand has gone from the last point.
@@ -46,13 +45,13 @@ class FaceSet {
 };
 
 struct Query {
-  const spatial::Target& target;
+  const Target& target;
   const SurfacePoint& q;
   const Vec3& position;  // q's
   const Vec3& r;
   double gap;  // |r - q|
 
-  spatial::Triangle triangle(Index f) const {
+  Triangle triangle(Index f) const {
     const TriangleMesh& mesh = target.mesh();
     return {mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)};
   }
@@ -103,9 +102,9 @@ std::optional<SurfacePoint> search_foot(const Query& query) {
   faces.insert(query.q.face);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Index f = faces[i];
-    const spatial::Triangle triangle = query.triangle(f);
+    const Triangle triangle = query.triangle(f);
     if (i > 0) {
-      double distance2 = spatial::closest_point(triangle, query.position).distance2;
+      double distance2 = closest_point(triangle, query.position).distance2;
       // A face without area still connects.
       for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
         distance2 = std::min(distance2, (corner - query.position).squaredNorm());
@@ -113,7 +112,7 @@ std::optional<SurfacePoint> search_foot(const Query& query) {
     }
     for (Index h = 3 * f; h < 3 * f + 3; ++h)
       if (half_edges.has_twin(h)) faces.insert(HalfEdges::face(half_edges.twin(h)));
-    if (spatial::is_farther(triangle, query.r, nearest * nearest)) continue;
+    if (is_farther(triangle, query.r, nearest * nearest)) continue;
     const NormalFoot foot = query.foot(f);
     if (!query.accepts(f, foot) || foot.distance > nearest) continue;
     if (best && foot.distance == nearest && f > best->face) continue;
@@ -123,25 +122,24 @@ std::optional<SurfacePoint> search_foot(const Query& query) {
   return best;
 }
 
-Step live_step(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-               const Vec3& r) {
-  const spatial::Target& target = *canvas.target;
+Stepped<SoftAnchor> live_step(const Canvas& canvas, const SoftAnchor& memory, const Frame& frame,
+                              const Vec3& r) {
+  const Target& target = canvas.target;
   const SurfacePoint& q = memory.surface;
   const Vec3 way = r - memory.position;
   if (!(way.cwiseAbs().maxCoeff() <= kFarthestHand)) return miss(memory);
   const Query query{target, q, memory.position, r, way.norm()};
   if (!(query.gap > kNoMotion * target.diagonal()))
-    return ink(Answer::smooth, q, memory.position, memory, frame);
+    return stepped({Answer::smooth, q, memory.position}, memory, frame);
   std::optional<SurfacePoint> x = walk_to_foot(query);
   if (!x) x = search_foot(query);
-  if (x) return ink(Answer::smooth, *x, target.position(*x), memory, frame);
+  if (x) return stepped({Answer::smooth, *x, target.position(*x)}, memory, frame);
 
   const Vec3 normal = interpolated_normal(target.mesh(), target.visible_normals(), q);
   const Vec3 motion = frame.controller.position - memory.pen;
   const Vec3 tangential = motion - motion.dot(normal) * normal;
-  const SurfacePoint end =
-      walk_section(target.mesh(), target.half_edges(), q, tangential, normal, tangential.norm());
-  return ink(Answer::section, end, target.position(end), memory, frame);
+  const SurfacePoint end = walk_section(target.surface(), q, tangential, normal, tangential.norm());
+  return stepped({Answer::section, end, target.position(end)}, memory, frame);
 }
 
 }  // namespace
@@ -149,16 +147,17 @@ Step live_step(const Canvas& canvas, const Memory& memory, const stroke::Frame& 
 // The point x near the last one from which the interpolated normal passes through r: as smooth as
 // the surface's normals, and found without a bake. Where there is none, the motion's tangential
 // part is walked off along the surface, which it therefore never leaves.
-Step mimicry_live(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-                  const Options& options) {
-  if (!memory.anchored) return spraycan(canvas, memory, frame, options);
+Stepped<SoftAnchor> mimicry_live(const Canvas& canvas, const SoftAnchor& memory, const Frame& frame,
+                                 const SoftAnchorOptions& options) {
+  if (!memory.anchored) return spray(canvas, memory, frame, options);
   return step_in_parts(
-      canvas, memory, frame, options, [&](const Memory& from, const stroke::Frame& to) {
+      canvas, memory, frame, options, [&](const SoftAnchor& from, const Frame& to) {
         const Vec3 r = anchored_point(canvas, from, to, options);
-        Step step = without_jump(canvas, from, to, options, live_step(canvas, from, to, r));
+        Stepped<SoftAnchor> step =
+            without_jump(canvas, from, to, options, live_step(canvas, from, to, r));
         keep_rest(canvas, from, to, options, r, step);
         return step;
       });
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

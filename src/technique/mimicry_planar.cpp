@@ -1,7 +1,7 @@
+#include "technique/pen_ray.h"
 #include "technique/planar_section.h"
-#include "technique/steps.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 // The sine between two motions below which they do not span a plane.
@@ -18,26 +18,25 @@ Vec3 unit_or_zero(const Vec3& v) {
 // through r_i = q_{i-1} + dp_i: the closest point to r_i of the section that q_{i-1} lies on. The
 // first two points are sprayed. While the motions span no plane the last one is kept, through
 // q_{i-1}; before there was any, the closest point serves.
-Step mimicry_planar(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-                    const Options& options) {
-  if (memory.points < 2) return spraycan(canvas, memory, frame, options);
+Stepped<DirectedAnchor> mimicry_planar(const Canvas& canvas, const DirectedAnchor& memory,
+                                       const Frame& frame, const SprayOptions& options) {
+  if (memory.points < 2) return spray(canvas, memory, frame, options);
   const Vec3 motion = frame.controller.position - memory.pen;
   if (!(motion.cwiseAbs().maxCoeff() <= kFarthestHand)) return miss(memory);
   const Vec3 r = memory.position + motion;
   const Vec3 normal = unit_or_zero(motion).cross(unit_or_zero(memory.motion));
   const double sine = normal.norm();
-  Memory kept = memory;
+  DirectedAnchor kept = memory;
   if (sine > kParallel) {
     kept.direction = normal / sine;
   } else if (memory.direction.isZero(0.0)) {
-    const auto closest = canvas.target->closest_point(r, kInfinity, memory.surface.face);
-    return closest ? ink(Answer::closest, closest->surface, closest->position, memory, frame)
+    const auto closest = canvas.target.closest_point(r, kInfinity, memory.surface.face);
+    return closest ? stepped({Answer::closest, closest->surface, closest->position}, memory, frame)
                    : miss(memory);
   }
-  const spatial::Target& target = *canvas.target;
-  const SurfacePoint q =
-      closest_on_section(target.mesh(), target.half_edges(), memory.surface, kept.direction, r);
-  return ink(Answer::section, q, target.position(q), kept, frame);
+  const Target& target = canvas.target;
+  const SurfacePoint q = closest_on_section(target.surface(), memory.surface, kept.direction, r);
+  return stepped({Answer::section, q, target.position(q)}, kept, frame);
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -2,7 +2,7 @@
 
 #include "technique/cubic_roots.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 // Barycentrics this little below zero lie on the edge: its other triangle sees the same point.
@@ -51,4 +51,4 @@ NormalFoot normal_foot(const NormalTriangle& triangle, const Vec3& r, double rea
   return best;
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

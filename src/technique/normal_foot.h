@@ -4,7 +4,7 @@
 
 #include <mimicry/base/types.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 
 /// A triangle with a normal at each corner.
 struct NormalTriangle {
@@ -27,4 +27,4 @@ struct NormalFoot {
 NormalFoot normal_foot(const NormalTriangle& triangle, const Vec3& r, double reach,
                        double tolerance);
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -1,16 +1,15 @@
 #include "technique/pen_ray.h"
 
-#include <mimicry/spatial/pseudonormal.h>
+#include "spatial/pseudonormal.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 
-std::optional<SurfacePoint> surface_dipped_through(const spatial::Target& target,
-                                                   const stroke::Frame& frame,
+std::optional<SurfacePoint> surface_dipped_through(const Target& target, const Frame& frame,
                                                    const Vec3& direction, Index hint) {
   const Vec3& pen = frame.controller.position;
   const auto closest = target.closest_point(pen, kInfinity, hint);
   if (!closest) return std::nullopt;
-  const Vec3 normal = spatial::pseudonormal(target, closest->surface);
+  const Vec3 normal = pseudonormal(target, closest->surface);
   if (!(normal.dot(pen - closest->position) < 0.0)) return std::nullopt;
   // A head that is inside too (of a room) sees the surface from there: nothing was gone through.
   const Vec3 sight = frame.head.position - pen;
@@ -22,19 +21,18 @@ std::optional<SurfacePoint> surface_dipped_through(const spatial::Target& target
   return faces_head || faces_pen ? closest->surface : out->surface;
 }
 
-Step pen_ray(const Canvas& canvas, const Memory& memory, const stroke::Frame& frame,
-             const Vec3& direction, const Options& options) {
-  const spatial::Target& target = *canvas.target;
+TechniqueStep pen_ray(const Canvas& canvas, const Frame& frame, const Vec3& direction, Index hint,
+                      const SightOptions& options) {
+  const Target& target = canvas.target;
   const Vec3& pen = frame.controller.position;
-  const Index hint = memory.surface.face;
   if (const auto touched = target.closest_point(pen, kTouching * target.diagonal(), hint))
-    return ink(Answer::closest, touched->surface, touched->position, memory, frame);
-  if (options.dipped_pen != 0.0) {
+    return {Answer::closest, touched->surface, touched->position};
+  if (options.dipped_pen) {
     if (const auto q = surface_dipped_through(target, frame, direction, hint))
-      return ink(Answer::closest, *q, target.position(*q), memory, frame);
+      return {Answer::closest, *q, target.position(*q)};
   }
   const auto hit = target.first_hit(pen, direction);
-  return hit ? ink(Answer::ray, hit->surface, hit->position, memory, frame) : miss(memory);
+  return hit ? TechniqueStep{Answer::ray, hit->surface, hit->position} : TechniqueStep{};
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 
 SurfacePoint drawn_inward(const SurfacePoint& q) {
   constexpr double kInward = 1e-9;
@@ -13,8 +13,10 @@ SurfacePoint drawn_inward(const SurfacePoint& q) {
   return inside;
 }
 
-SurfacePoint closest_on_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                                const SurfacePoint& q, const Vec3& normal, const Vec3& r) {
+SurfacePoint closest_on_section(const Surface& surface, const SurfacePoint& q, const Vec3& normal,
+                                const Vec3& r) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   const SurfacePoint start = drawn_inward(q);
   const Vec3 origin = mesh.position(start);
   const auto side = [&](Index v) { return normal.dot(mesh.position(v) - origin); };
@@ -58,4 +60,4 @@ SurfacePoint closest_on_section(const TriangleMesh& mesh, const HalfEdges& half_
   return best;
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

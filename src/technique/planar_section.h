@@ -1,10 +1,9 @@
+#include <mimicry/mesh/surface.h>
 #pragma once
 
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/surface_point.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 
 /// q, a hair into its face: a plane through it has corners of the face on both sides and passes a
 /// vertex on a definite side.
@@ -14,7 +13,7 @@ SurfacePoint drawn_inward(const SurfacePoint& q);
 /// component that contains q; a component ends at boundary and non-manifold edges. normal: the
 /// plane's, unit. Of equally close points the one met first, walking from q along normal x surface
 /// normal. Cost: linear in the faces that the component crosses; no allocation.
-SurfacePoint closest_on_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                                const SurfacePoint& q, const Vec3& normal, const Vec3& r);
+SurfacePoint closest_on_section(const Surface& surface, const SurfacePoint& q, const Vec3& normal,
+                                const Vec3& r);
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

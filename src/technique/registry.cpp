@@ -1,102 +1,88 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <atomic>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include <mimicry/base/error.h>
 #include <mimicry/technique/technique.h>
 
-#include "technique/steps.h"
+#include "technique/options.h"
+#include "technique/rows.h"
 
-namespace mimicry::technique {
+namespace mimicry {
+
 namespace {
 
-constexpr OptionInfo kNozzle = {
-    "nozzle",
-    "",
-    "spray direction in the controller's axes (x,y,z)",
-    [](const Options& o) { return std::span<const double>(o.nozzle.data(), 3); },
-    [](Options& o) { return std::span<double>(o.nozzle.data(), 3); },
-    -1.0,
-    1.0};
+// Rows never move: there is room for all from the start, and readers see those that are counted.
+class Registry {
+ public:
+  Registry() {
+    std::vector<TechniqueInfo> built_in = built_in_techniques();
+    most_ = built_in.size() + kMostRegistered;
+    rows_.reserve(most_);
+    for (TechniqueInfo& row : built_in) rows_.push_back(std::move(row));
+    count_ = rows_.size();
+  }
 
-constexpr OptionInfo kDippedPen = {
-    "dipped-pen",
-    "",
-    "1: a pen inside the object draws at the surface it went through; 0: at the ray's first hit",
-    [](const Options& o) { return std::span<const double>(&o.dipped_pen, 1); },
-    [](Options& o) { return std::span<double>(&o.dipped_pen, 1); },
-    0.0,
-    1.0,
-    false};
+  std::span<const TechniqueInfo> rows() const {
+    return {rows_.data(), count_.load(std::memory_order_acquire)};
+  }
 
-constexpr std::array<OptionInfo, 1> kSightOptions = {kDippedPen};
-constexpr std::array<OptionInfo, 2> kSprayOptions = {kNozzle, kDippedPen};
+  const TechniqueInfo& add(TechniqueInfo info) {
+    const std::lock_guard<std::mutex> lock(adding_);
+    if (technique_named(info.name))
+      throw Error(ErrorKind::invalid_input,
+                  "technique '" + info.name + "' exists already; choose another name");
+    if (rows_.size() == most_)
+      throw Error(ErrorKind::invalid_input, "technique '" + info.name + "': no more than " +
+                                                std::to_string(kMostRegistered) +
+                                                " can be registered");
+    rows_.push_back(std::move(info));
+    count_.store(rows_.size(), std::memory_order_release);
+    return rows_.back();
+  }
 
-constexpr OptionInfo kReplaceFailed = {
-    "replace-failed",
-    "",
-    "1: smooth points that fail the paper's test are replaced by closest points; 0: they stay",
-    [](const Options& o) { return std::span<const double>(&o.replace_failed, 1); },
-    [](Options& o) { return std::span<double>(&o.replace_failed, 1); },
-    0.0,
-    1.0};
+ private:
+  std::vector<TechniqueInfo> rows_;
+  std::size_t most_ = 0;
+  std::atomic<std::size_t> count_ = 0;
+  std::mutex adding_;
+};
 
-constexpr std::array<OptionInfo, 1> kSmoothOptions = {kReplaceFailed};
-constexpr std::array<OptionInfo, 3> kSpraySmoothOptions = {kNozzle, kDippedPen, kReplaceFailed};
+// Never destroyed: other objects of the program's whole life may use it at its end.
+Registry& registry() {
+  static Registry& all = *new Registry;
+  return all;
+}
 
-constexpr std::array<OptionInfo, 6> kMimicryOptions = {{
-    kNozzle,
-    kDippedPen,
-    {"soft-anchor", "", "1: carry over what the curve did not follow; 0: do not",
-     [](const Options& o) { return std::span<const double>(&o.soft_anchor.on, 1); },
-     [](Options& o) { return std::span<double>(&o.soft_anchor.on, 1); }, 0.0, 1.0},
-    {"soft-anchor-tau", "s", "time in which what is carried over fades to 1/e",
-     [](const Options& o) { return std::span<const double>(&o.soft_anchor.tau_s, 1); },
-     [](Options& o) { return std::span<double>(&o.soft_anchor.tau_s, 1); }, 0.001, 10.0},
-    {"soft-anchor-limit", "mm", "length carried over at most, in the world",
-     [](const Options& o) { return std::span<const double>(&o.soft_anchor.limit_mm, 1); },
-     [](Options& o) { return std::span<double>(&o.soft_anchor.limit_mm, 1); }, 0.0, 100.0},
-    kReplaceFailed,
-}};
-// The same without what it does not have.
-constexpr std::array<OptionInfo, 5> kLiveOptions = {kMimicryOptions[0], kMimicryOptions[1],
-                                                    kMimicryOptions[2], kMimicryOptions[3],
-                                                    kMimicryOptions[4]};
+bool is_word(std::string_view name) {
+  const auto is_fine = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  };
+  return !name.empty() && name.front() != '-' && name.back() != '-' &&
+         std::all_of(name.begin(), name.end(), is_fine);
+}
 
-constexpr std::array<TechniqueInfo, 13> kTechniques = {{
-    {"occlude", "along the line of sight: from the eye through the pen, to what the pen hides",
-     "3.1.1", false, false, kSightOptions, occlude},
-    {"spraycan", "along the controller's nozzle, as from a spray can or a laser pointer", "3.1.1",
-     false, false, kSprayOptions, spraycan},
-    {"head-centric",
-     "along the head's forward axis: the curve is drawn by looking",
-     "3.1.1",
-     false,
-     false,
-     {},
-     head_centric},
-    {"snap", "to the closest point of the surface", "3.1.2", false, false, {}, snap},
-    {"snap-smooth", "to the smooth closest point of the surface", "3.1.2", false, true,
-     kSmoothOptions, snap_smooth},
-    {"anchored-closest", "the hand's motion is added to the last point, then the closest point",
-     "4.1", true, false, kSprayOptions, anchored_closest},
-    {"mimicry", "the hand's motion is added to the last point, then the smooth closest point",
-     "Eq. mimicry", true, true, kMimicryOptions, mimicry},
-    {"mimicry-planar", "along the surface's section with the plane of the hand's last two motions",
-     "4.2", true, false, kSprayOptions, mimicry_planar},
-    {"mimicry-offset", "as mimicry, without the motion toward or from the surface below the hand",
-     "Eq. offset", true, true, kSpraySmoothOptions, mimicry_offset},
-    {"mimicry-parallel", "as mimicry, without the motion toward or from the surface at the curve",
-     "Eq. parallel", true, true, kSpraySmoothOptions, mimicry_parallel},
-    {"anchored-ray-plane", "a ray across the motion, in its plane with the last ray", "4.3", true,
-     false, kSprayOptions, anchored_ray_plane},
-    {"anchored-ray-transport", "the last ray's direction, turned as the motion turned", "4.3", true,
-     false, kSprayOptions, anchored_ray_transport},
-    {"mimicry-live",
-     "the hand's motion is added to the last point, then back along the smoothed normal; no bake",
-     "-", true, false, kLiveOptions, mimicry_live},
-}};
+void require_sound(const TechniqueInfo& info) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorKind::invalid_input, "technique '" + info.name + "' " + why);
+  };
+  if (!is_word(info.name))
+    refuse("cannot be registered: write its name in lower case letters, digits and '-'");
+  if (!info.step) refuse("has no step function");
+  if (info.color > 0xffffff) refuse("has a colour that is not 0xrrggbb");
+  for (std::size_t i = 0; i < info.options.size(); ++i) {
+    const OptionInfo& option = info.options[i];
+    if (!is_word(option.name))
+      refuse("has an option '" + option.name +
+             "': write its name in lower case letters, digits and '-'");
+    for (std::size_t j = 0; j < i; ++j)
+      if (info.options[j].name == option.name) refuse("has two options '" + option.name + "'");
+    require_sound_option(info, option);
+  }
+}
 
 }  // namespace
 
@@ -107,55 +93,28 @@ std::string_view answer_name(Answer answer) {
   return kNames[static_cast<std::size_t>(answer)];
 }
 
-bool is_listed(const OptionInfo& option, const Options& options) {
-  const Options defaults;
-  const auto values = option.get(options), usual = option.get(defaults);
-  return option.always_listed || !std::equal(values.begin(), values.end(), usual.begin());
+std::span<const TechniqueInfo> techniques() {
+  return registry().rows();
 }
 
-std::span<const TechniqueInfo> techniques() {
-  return kTechniques;
+const TechniqueInfo* technique_named(std::string_view name) {
+  for (const TechniqueInfo& t : techniques())
+    if (t.name == name) return &t;
+  return nullptr;
 }
 
 const TechniqueInfo& find_technique(std::string_view name) {
+  if (const TechniqueInfo* found = technique_named(name)) return *found;
   std::string names;
-  for (const TechniqueInfo& t : kTechniques) {
-    if (t.name == name) return t;
-    names += (names.empty() ? "" : ", ") + std::string(t.name);
-  }
+  for (const TechniqueInfo& t : techniques()) names += (names.empty() ? "" : ", ") + t.name;
   throw Error(ErrorKind::invalid_input,
               "technique '" + std::string(name) + "' does not exist; choose one of " + names);
 }
 
-void set_option(const TechniqueInfo& technique, Options& options, std::string_view name,
-                std::span<const double> values) {
-  const std::string label = std::string(technique.name) + ": option '" + std::string(name) + "'";
-  std::string names;
-  for (const OptionInfo& info : technique.options) {
-    if (info.name != name) {
-      names += (names.empty() ? "" : ", ") + std::string(info.name);
-      continue;
-    }
-    const std::span<double> stored = info.edit(options);
-    if (values.size() != stored.size())
-      throw Error(ErrorKind::invalid_input, label + " takes " + std::to_string(stored.size()) +
-                                                " numbers, not " + std::to_string(values.size()));
-    double largest = 0.0;
-    for (const double v : values) {
-      if (!std::isfinite(v) || v < info.lowest || v > info.highest)
-        throw Error(ErrorKind::invalid_input, label + ": " + std::to_string(v) +
-                                                  " is not between " + std::to_string(info.lowest) +
-                                                  " and " + std::to_string(info.highest));
-      largest = std::max(largest, std::abs(v));
-    }
-    if (values.size() == 3 && largest == 0.0)
-      throw Error(ErrorKind::invalid_input, label + " is a direction and cannot be zero");
-    std::copy(values.begin(), values.end(), stored.begin());
-    return;
-  }
-  throw Error(
-      ErrorKind::invalid_input,
-      label + " does not exist; " + (names.empty() ? "it has none" : "its options are " + names));
+const TechniqueInfo& register_technique(TechniqueInfo info) {
+  require_sound(info);
+  if (info.title.empty()) info.title = info.name;
+  return registry().add(std::move(info));
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

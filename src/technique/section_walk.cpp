@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/mesh/half_edges.h>
 
 #include "technique/planar_section.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 constexpr int kMostSteps = 4096;
@@ -18,9 +18,10 @@ SurfacePoint across(Index twin, double t) {
 
 }  // namespace
 
-SurfacePoint walk_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                          const SurfacePoint& q, const Vec3& motion, const Vec3& normal,
-                          double length) {
+SurfacePoint walk_section(const Surface& surface, const SurfacePoint& q, const Vec3& motion,
+                          const Vec3& normal, double length) {
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& half_edges = surface.half_edges();
   const Vec3 sideways = normal.cross(motion);
   const double norm = sideways.norm();
   if (!(norm > 0.0) || !(length > 0.0)) return q;
@@ -57,4 +58,4 @@ SurfacePoint walk_section(const TriangleMesh& mesh, const HalfEdges& half_edges,
   return at;
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

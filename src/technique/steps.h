@@ -2,34 +2,38 @@
 
 #include <mimicry/technique/technique.h>
 
-namespace mimicry::technique {
+#include "technique/memory.h"
+#include "technique/options.h"
+
+namespace mimicry {
 
 // Context-free techniques (paper, section 3.1).
-Step occlude(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step spraycan(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step head_centric(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step snap(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step snap_smooth(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Stepped<SearchHint> occlude(const Canvas&, const SearchHint&, const Frame&, const SightOptions&);
+Stepped<SearchHint> spraycan(const Canvas&, const SearchHint&, const Frame&, const SprayOptions&);
+Stepped<NoMemory> head_centric(const Canvas&, const NoMemory&, const Frame&, const NoOptions&);
+Stepped<SearchHint> snap(const Canvas&, const SearchHint&, const Frame&, const NoOptions&);
+Stepped<SearchHint> snap_smooth(const Canvas&, const SearchHint&, const Frame&,
+                                const SmoothClosestOptions&);
 
 // Anchored techniques (paper, section 4).
-Step anchored_closest(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step mimicry(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step mimicry_planar(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step mimicry_offset(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step mimicry_parallel(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step anchored_ray_plane(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
-Step anchored_ray_transport(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Stepped<Anchor> anchored_closest(const Canvas&, const Anchor&, const Frame&, const SprayOptions&);
+Stepped<SoftAnchor> mimicry(const Canvas&, const SoftAnchor&, const Frame&, const MimicryOptions&);
+Stepped<DirectedAnchor> mimicry_planar(const Canvas&, const DirectedAnchor&, const Frame&,
+                                       const SprayOptions&);
+Stepped<Anchor> mimicry_offset(const Canvas&, const Anchor&, const Frame&,
+                               const SpraySmoothOptions&);
+Stepped<Anchor> mimicry_parallel(const Canvas&, const Anchor&, const Frame&,
+                                 const SpraySmoothOptions&);
+Stepped<DirectedAnchor> anchored_ray_plane(const Canvas&, const DirectedAnchor&, const Frame&,
+                                           const SprayOptions&);
+Stepped<DirectedAnchor> anchored_ray_transport(const Canvas&, const DirectedAnchor&, const Frame&,
+                                               const SprayOptions&);
 
 // Anchored, without a bake (ours).
-Step mimicry_live(const Canvas&, const Memory&, const stroke::Frame&, const Options&);
+Stepped<SoftAnchor> mimicry_live(const Canvas&, const SoftAnchor&, const Frame&,
+                                 const SoftAnchorOptions&);
 
 /// Of a motion, along an axis: squares of what is farther overflow.
 inline constexpr double kFarthestHand = 1e60;
 
-/// The step that inks q for this frame: the frame becomes the anchor.
-Step ink(Answer answer, const SurfacePoint& surface, const Vec3& position, const Memory& memory,
-         const stroke::Frame& frame);
-/// No point; the anchor stays.
-Step miss(const Memory& memory);
-
-}  // namespace mimicry::technique
+}  // namespace mimicry

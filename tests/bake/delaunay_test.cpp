@@ -1,3 +1,5 @@
+#include "bake/delaunay.h"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/bake/delaunay.h>
+#include "base/compiler.h"
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 constexpr std::int32_t kTop = (1 << kGridBits) - 1;
@@ -23,11 +25,9 @@ std::vector<GridPoint> random_points(int count, std::int32_t top, unsigned seed)
   return points;
 }
 
-__extension__ typedef __int128 Wide;
-
 // Sixfold volume, exact.
-Wide volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
-  Wide m[3][3];
+Int128 volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
+  Int128 m[3][3];
   for (std::size_t k = 0; k < 3; ++k) {
     m[0][k] = b[k] - a[k];
     m[1][k] = c[k] - a[k];
@@ -95,7 +95,7 @@ TEST(DelaunayPredicates, OrientationEqualsTheExactVolume) {
       c[i] = far(random);
       d[i] = std::clamp((a[i] + b[i] + c[i]) / 3 + near(random), 0, kTop);
     }
-    const Wide exact = volume(a, b, c, d);
+    const Int128 exact = volume(a, b, c, d);
     ASSERT_EQ(orientation(a, b, c, d), (exact > 0) - (exact < 0)) << "round " << k;
   }
 }
@@ -229,4 +229,4 @@ TEST(Delaunay, SameInputSameTetrahedra) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry

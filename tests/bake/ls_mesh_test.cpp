@@ -1,3 +1,5 @@
+#include "bake/ls_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -5,10 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/bake/ls_mesh.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 struct Cloud {
@@ -311,4 +312,4 @@ TEST(LsMesh, SameBitsOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,10 +1,10 @@
+#include "bake/mds.h"
+
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include <mimicry/bake/mds.h>
-
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 Eigen::MatrixXd planted(int n, int dimension, unsigned seed) {
@@ -108,4 +108,4 @@ TEST(Mds, Cancels) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -1,17 +1,18 @@
+#include "bake/samples.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <mimicry/bake/samples.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::bake {
+namespace mimicry {
 namespace {
 
 TEST(Samples, AreSpreadEvenly) {
   const TriangleMesh mesh = make_sphere(10, 1.0);
-  const geodesic::FastMarching march(mesh);
+  const FastMarching march(mesh);
   const std::vector<Index> samples = farthest_points(mesh, march, 60);
   ASSERT_EQ(samples.size(), 60u);
   // Farthest points are apart at least as far as every vertex is from the nearest of them, up to
@@ -37,7 +38,7 @@ TEST(Samples, AreSpreadEvenly) {
 
 TEST(Samples, AllVerticesWhereThereAreFewer) {
   const TriangleMesh mesh = make_two_spheres(2);
-  const geodesic::FastMarching march(mesh);
+  const FastMarching march(mesh);
   std::vector<Index> samples = farthest_points(mesh, march, 1000);
   std::sort(samples.begin(), samples.end());
   ASSERT_EQ(static_cast<Index>(samples.size()), mesh.vertex_count());
@@ -49,7 +50,7 @@ TEST(Samples, EveryComponentGetsOneFirstAndLonelyVerticesNone) {
   std::vector<Vec3> positions(spheres.positions().begin(), spheres.positions().end());
   positions.emplace_back(9.0, 9.0, 9.0);
   const TriangleMesh mesh(positions, {spheres.faces().begin(), spheres.faces().end()});
-  const geodesic::FastMarching march(mesh);
+  const FastMarching march(mesh);
   const std::vector<Index> samples = farthest_points(mesh, march, 2);
   ASSERT_EQ(samples.size(), 2u);
   EXPECT_LT(mesh.position(samples[0]).x() * mesh.position(samples[1]).x(), 0.0);
@@ -59,7 +60,7 @@ TEST(Samples, EveryComponentGetsOneFirstAndLonelyVerticesNone) {
 
 TEST(SampleDistances, GeodesicWithinAndStraightBetweenComponents) {
   const TriangleMesh mesh = make_two_spheres(8);
-  const geodesic::FastMarching march(mesh);
+  const FastMarching march(mesh);
   const std::vector<Index> samples = farthest_points(mesh, march, 24);
   Executor one(1), two(2);
   const Eigen::MatrixXd d = sample_distances(mesh, march, samples, one);
@@ -82,4 +83,4 @@ TEST(SampleDistances, GeodesicWithinAndStraightBetweenComponents) {
 }
 
 }  // namespace
-}  // namespace mimicry::bake
+}  // namespace mimicry

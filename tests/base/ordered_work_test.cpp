@@ -1,3 +1,5 @@
+#include "base/ordered_work.h"
+
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -6,8 +8,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include <mimicry/base/ordered_work.h>
 
 namespace mimicry {
 namespace {

@@ -1,5 +1,5 @@
 // This program's own pthread_create stands before the system's, so that threads can be refused.
-#if !defined(__EMSCRIPTEN__)
+#if !defined(__EMSCRIPTEN__) && !defined(_WIN32)
 
 #include <atomic>
 #include <cerrno>
@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 
-#include <mimicry/base/ordered_work.h>
 #include <mimicry/base/parallel.h>
+
+#include "base/ordered_work.h"
 
 namespace {
 std::atomic<int> threads_left{1 << 20};

@@ -14,67 +14,21 @@
 #include <mimicry/mimicry.h>
 #include <mimicry/session/stroke_session.h>
 
+#include "handles.h"
 #include "support/allocations.h"
 
 extern "C" int draw_in_c(void);
 
 namespace {
 
+using namespace mimicry::test;
 using testing::HasSubstr;
 
-template <auto destroy>
-struct Destroy {
-  template <class T>
-  void operator()(T* object) const {
-    destroy(object);
-  }
-};
-using Mesh = std::unique_ptr<mimicry_mesh, Destroy<mimicry_mesh_destroy>>;
-using Target = std::unique_ptr<mimicry_target, Destroy<mimicry_target_destroy>>;
-using Session = std::unique_ptr<mimicry_session, Destroy<mimicry_session_destroy>>;
-using Curve = std::unique_ptr<mimicry_curve, Destroy<mimicry_curve_destroy>>;
-using Bytes = std::unique_ptr<mimicry_bytes, Destroy<mimicry_bytes_destroy>>;
-using Strokes = std::unique_ptr<mimicry_strokes, Destroy<mimicry_strokes_destroy>>;
-using List = std::unique_ptr<mimicry_curve_list, Destroy<mimicry_curve_list_destroy>>;
-using Tube = std::unique_ptr<mimicry_tube, Destroy<mimicry_tube_destroy>>;
-
-// The object that a call makes; the call must succeed.
-template <class Handle, class Function, class... Arguments>
-Handle make(Function function, Arguments... arguments) {
-  typename Handle::pointer out = nullptr;
-  EXPECT_EQ(function(arguments..., &out), MIMICRY_OK) << mimicry_last_error();
-  return Handle(out);
-}
-
-Target target_of(const char* shape, int resolution = 0) {
-  const auto mesh = make<Mesh>(mimicry_mesh_shape, shape, resolution);
-  return make<Target>(mimicry_target_create, mesh.get(), 0);
-}
-
-const mimicry_similarity kPlaced{{0, 0, 0, 1}, {0.1, 0.2, -0.3}, 0.5};
-
-std::vector<mimicry_frame> wave(int count) {
-  std::vector<mimicry_frame> frames(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    mimicry_frame& f = frames[static_cast<std::size_t>(i)];
-    f = {};
-    f.time_s = i / 90.0;
-    f.head_position[2] = 1.0;
-    f.head_orientation[3] = f.controller_orientation[3] = 1.0;
-    f.controller_position[0] = 0.1 + 0.002 * i - 0.1;
-    f.controller_position[1] = 0.2 + 0.05 * std::sin(0.1 * i);
-    f.controller_position[2] = 0.3;
-    f.trigger = 1.0;
-    f.pressure = i % 2 == 0 ? -1.0 : 0.5;
-  }
-  return frames;
-}
-
-mimicry::stroke::Stroke stroke_of(const std::vector<mimicry_frame>& frames) {
-  mimicry::stroke::Stroke s;
+mimicry::Stroke stroke_of(const std::vector<mimicry_frame>& frames) {
+  mimicry::Stroke s;
   s.model_to_world = {mimicry::Quat::Identity(), {0.1, 0.2, -0.3}, 0.5};
   for (const mimicry_frame& f : frames) {
-    mimicry::stroke::Frame frame;
+    mimicry::Frame frame;
     frame.time_s = f.time_s;
     frame.head.position = mimicry::Vec3(f.head_position);
     frame.controller.position = mimicry::Vec3(f.controller_position);
@@ -101,15 +55,15 @@ TEST(CApi, ACProgramDraws) {
 TEST(CApi, CurvesEqualTheLibrarysBitForBit) {
   const Target target = target_of("hand");
   const auto frames = wave(120);
-  const mimicry::spatial::Target native(mimicry::make_shape("hand"));
+  const mimicry::Target native(mimicry::make_shape("hand"));
   for (int i = 0; i < mimicry_technique_count(); ++i) {
     const mimicry_technique_info& info = *mimicry_technique(i);
     if (info.needs_bake) continue;
     const auto session = make<Session>(mimicry_session_create, target.get(), info.name);
     const auto curve =
         make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
-    const auto expected = mimicry::session::project(
-        {&native}, mimicry::technique::find_technique(info.name), stroke_of(frames));
+    const auto expected =
+        mimicry::project({native}, mimicry::find_technique(info.name), stroke_of(frames)).curve;
     ASSERT_EQ(mimicry_curve_point_count(curve.get()), expected.points.size()) << info.name;
     for (std::size_t k = 0; k < expected.points.size(); ++k) {
       mimicry_curve_point p;
@@ -117,7 +71,7 @@ TEST(CApi, CurvesEqualTheLibrarysBitForBit) {
       EXPECT_EQ(p.face, expected.points[k].surface.face);
       EXPECT_EQ(mimicry::Vec3(p.position), expected.points[k].position) << info.name << " " << k;
     }
-    EXPECT_EQ(mimicry_curve_length(curve.get()), mimicry::curve::length(expected));
+    EXPECT_EQ(mimicry_curve_length(curve.get()), mimicry::length(expected));
     EXPECT_EQ(mimicry_curve_ink_count(curve.get()), mimicry_session_ink_count(session.get()));
   }
 }
@@ -130,12 +84,12 @@ TEST(CApi, InkIsThePolylines) {
   for (auto& f : frames) f.controller_position[0] -= 0.3;
   const auto curve =
       make<Curve>(mimicry_session_project, session.get(), &kPlaced, frames.data(), frames.size());
-  const mimicry::spatial::Target native(mimicry::make_shape("two-spheres"));
-  mimicry::session::SessionOptions options;
-  options.misses = mimicry::session::MissPolicy::split;
-  const auto expected = mimicry::curve::polylines(
-      mimicry::session::project({&native}, mimicry::technique::find_technique("spraycan"),
-                                stroke_of(frames), options),
+  const mimicry::Target native(mimicry::make_shape("two-spheres"));
+  mimicry::SessionOptions options;
+  options.misses = mimicry::MissPolicy::split;
+  const auto expected = mimicry::polylines(
+      mimicry::project({native}, mimicry::find_technique("spraycan"), stroke_of(frames), options)
+          .curve,
       native.mesh());
   ASSERT_GE(expected.size(), 2u) << "the stroke leaves the target once at least";
   const mimicry_ink* ink = mimicry_curve_ink(curve.get());

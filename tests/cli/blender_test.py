@@ -21,7 +21,7 @@ SYSTEM = {**os.environ, "PATH": "/usr/local/bin:/usr/bin:/bin"}
 
 
 def run(*args, env=None):
-    done = subprocess.run(args, capture_output=True, text=True, timeout=300, env=env, check=False)
+    done = subprocess.run(args, capture_output=True, text=True, timeout=1800, env=env, check=False)
     assert done.returncode == 0, (args, done.stdout[-3000:], done.stderr[-3000:])
 
 

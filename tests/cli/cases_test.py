@@ -21,7 +21,7 @@ def case(*names):
 
 
 def run(*args, expect=0):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=900)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 

@@ -14,7 +14,7 @@ os.environ["MIMICRY_CACHE"] = CACHE.name
 
 
 def run(*args, expect=0):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 
@@ -87,7 +87,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("MIMICRY_MAX_UNFOLDED", said)
         for limit, answer in (("20000001", "unfolds to 60000000 vertices, more than the 20000001"),
                               ("many", "'many' is not a number of triangles")):
-            done = subprocess.run([PROGRAM, "info", small], capture_output=True, text=True, timeout=120,
+            done = subprocess.run([PROGRAM, "info", small], capture_output=True, text=True, timeout=1800,
                                   env={**os.environ, "MIMICRY_MAX_UNFOLDED": limit})
             self.assertEqual(done.returncode, 3)
             self.assertIn(answer, done.stderr)
@@ -202,6 +202,20 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(pressed["glb"] == plain["glb"], same)
             self.assertEqual(pressed["ply"] == plain["ply"], same)
             self.assertEqual(curves("d", path, "--tube-width", "constant"), plain)
+
+    def test_info_of_attributes(self):
+        mesh = self.write("cup.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\no cup\ng lower side\n"
+                          "usemtl red\nf 1/1 2/2 3/9\ng upper\nf 1 3 2\n")
+        done = run("info", mesh, "--json")
+        self.assertIn("line 9", done.stderr)
+        self.assertEqual({"texcoord_corners": 2, "texcoords": 2, "color_corners": 0, "colors": 0,
+                          "groups": ["lower side", "upper"], "materials": ["red"], "objects": ["cup"]},
+                         json.loads(done.stdout)["attributes"])
+        text = run("info", mesh).stdout
+        self.assertRegex(text, r"texture coordinates +2, at 2 corners of 6")
+        self.assertRegex(text, r"groups +2: lower side, upper")
+        plain = run("info", "shape:torus")
+        self.assertNotIn("groups", plain.stdout)
 
     def test_info(self):
         report = json.loads(run("info", "shape:double-torus", "--json").stdout)

@@ -23,7 +23,7 @@ LEAST_SHARE = 0.9
 def elsewhere(path):
     """Whether assimp finds faces, and how many triangles; None for those where its number is another thing: of
     polygons, with lines and points, or of meshes that several nodes show."""
-    done = subprocess.run(["assimp", "info", path, "-r", "-s"], capture_output=True, text=True, timeout=120,
+    done = subprocess.run(["assimp", "info", path, "-r", "-s"], capture_output=True, text=True, timeout=1800,
                           check=False)
     kinds = re.search(r"^Primitive Types:\s*(\S+)", done.stdout, re.MULTILINE)
     if not kinds or not re.search("triangles|polygons", kinds.group(1)):
@@ -43,7 +43,7 @@ def main():
             path = os.path.join(folder, name)
             if not name.lower().endswith(ENDINGS) or any(word in path for word in EXOTIC):
                 continue
-            done = subprocess.run([PROGRAM, "info", path, "--json"], capture_output=True, text=True, timeout=300,
+            done = subprocess.run([PROGRAM, "info", path, "--json"], capture_output=True, text=True, timeout=1800,
                                   check=False)
             assert done.returncode in (0, 3, 4), (path, done.returncode, done.stderr)
             has_faces, expected = elsewhere(path)

@@ -35,7 +35,7 @@ class Embeddings(unittest.TestCase):
     @staticmethod
     def run_in(cache, *args, expect=0):
         environment = dict(os.environ, MIMICRY_CACHE=cache)
-        done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=120,
+        done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800,
                               env=environment)
         assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
         return done
@@ -382,7 +382,7 @@ class Embeddings(unittest.TestCase):
             self.wait_until_caught(bake, number)
             time.sleep(0.3)
             bake.send_signal(number)
-            bake.communicate(timeout=120)
+            bake.communicate(timeout=1800)
             self.assertEqual(bake.returncode, 130)
             self.assertEqual(os.listdir(self.folder.name), [])
 

@@ -14,7 +14,7 @@ PROGRAM, STUDY = sys.argv[1:3]
 
 
 def run(*args, expect=0, **options):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=240, **options)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800, **options)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 
@@ -70,7 +70,7 @@ class Compare(Folder):
                 }}
                 cat(format(p.adjust(p, 'holm'), digits=15), '\\n')"""
             theirs = subprocess.run([rscript, "-e", script], capture_output=True, text=True,
-                                    timeout=120, check=True).stdout.splitlines()
+                                    timeout=1800, check=True).stdout.splitlines()
             for measure, line in zip(whole["measures"], theirs):
                 name, v, p_normal, p, mean, sd = line.split()
                 self.assertEqual(measure["measure"], name)
@@ -128,6 +128,11 @@ class Compare(Folder):
 
     def test_errors(self):
         rows, _ = self.rows(3)
+        self.assertEqual(run("compare", rows, "-m", "a,b", "--measures", "same").stderr, "")
+        former = run("compare", self.write("o.csv", "method,curve,repeat,K_E\n0,7,0,1\n1,7,0,2\n"),
+                     "-m", "spraycan,mimicry")
+        self.assertIn("all: 1 pairs", former.stdout)
+        self.assertIn("o.csv: is of an earlier version; its column 'repeat'", former.stderr)
         self.assertIn("'c', only of a, b",
                       run("compare", rows, "-m", "a,c", "--measures", "same", expect=3).stderr)
         self.assertIn("no column 'K_E'",
@@ -298,10 +303,14 @@ class Participants(Folder):
         self.assertEqual(len(rows), 2 * 2 * 4 * 2)
         self.assertEqual({r["simulated"] for r in rows}, {f"mimicry {version} seed 1"})
         # The same technique again gives what was drawn.
-        again = [r for r in rows if r["method"] == "spraycan" and r["stroke"].startswith("0_")]
+        again = [r for r in rows if r["method"] == "spraycan" and r["recording"] == "0_0.json"]
+        self.assertEqual([r["stroke"] for r in again], ["0_0.json#" + r["index"] for r in again])
+        self.assertEqual({(r["method"], r["method_number"]) for r in rows},
+                         {("spraycan", "0"), ("snap", "")})
+        self.assertEqual({(r["shape"], r["shape_number"]) for r in rows}, {("torus", "0")})
         self.assertLess(max(float(r["D_ep_mm"]) for r in again), 30)
         self.assertEqual({r["task"] for r in rows}, {"tracing", "re-creating"})
-        self.assertEqual(sorted({r["repeat"] for r in rows}), ["0", "1"])
+        self.assertEqual(sorted({r["repetition"] for r in rows}), ["0", "1"])
 
         os.remove(self.path("a", "p00", "2_0.json"))
         os.mkdir(self.path("a", "nobody"))

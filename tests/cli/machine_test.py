@@ -55,7 +55,7 @@ class StandardOutput(Folder):
                         ("info", "shape:torus")):
             with open("/dev/full", "wb") as full:
                 done = subprocess.run([PROGRAM, *command], stdout=full, stderr=subprocess.PIPE,
-                                      timeout=60)
+                                      timeout=1800)
             self.assertEqual(done.returncode, 4, command)
             self.assertIn(b"standard output", done.stderr)
 
@@ -63,7 +63,7 @@ class StandardOutput(Folder):
         read, write = os.pipe()
         os.close(read)
         done = subprocess.run([PROGRAM, "techniques", "--json"], stdout=write,
-                              stderr=subprocess.PIPE, timeout=60)
+                              stderr=subprocess.PIPE, timeout=1800)
         os.close(write)
         self.assertEqual((done.returncode, done.stderr), (4, b""))
 
@@ -73,7 +73,7 @@ class StandardOutput(Folder):
         for closed in (">&-", "<&- >&-", "<&- >&- 2>&-"):
             out = self.path("closed.json")
             done = subprocess.run(["sh", "-c", f'"$@" {closed}', "sh", PROGRAM, "simulate",
-                                   "shape:torus:24", "--rate", "20", "--out", out], timeout=60,
+                                   "shape:torus:24", "--rate", "20", "--out", out], timeout=1800,
                                   stderr=subprocess.DEVNULL)
             self.assertEqual(done.returncode, 4, closed)
             self.assertEqual(self.read("closed.json"), self.read("s.json"))
@@ -214,11 +214,11 @@ class Locks(Folder):
 
         first = subprocess.Popen(replay(pipe), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         writer = os.open(pipe, os.O_WRONLY)  # waits until the first run reads, with the lock
-        second = subprocess.run(replay(self.strokes), capture_output=True, timeout=60)
+        second = subprocess.run(replay(self.strokes), capture_output=True, timeout=1800)
         self.assertEqual(second.returncode, 4)
         self.assertIn(b"another program", second.stderr)
         first.send_signal(signal.SIGKILL)
-        first.wait(timeout=60)
+        first.wait(timeout=1800)
         os.close(writer)
         shutil.rmtree(self.path("out"))
         run(*replay(self.strokes)[1:])
@@ -229,7 +229,7 @@ class Locks(Folder):
         together = [subprocess.Popen([PROGRAM, "simulate", "shape:torus:24", "--rate", "20", "--out",
                                       self.path("a")], stdout=subprocess.DEVNULL,
                                      stderr=subprocess.DEVNULL) for _ in range(12)]
-        codes = [p.wait(timeout=120) for p in together]
+        codes = [p.wait(timeout=1800) for p in together]
         self.assertIn(0, codes)
         self.assertLessEqual(set(codes), {0, 4})
         self.assertEqual(self.read("a"), self.read("whole"))

@@ -18,7 +18,7 @@ class Names(Folder):
 
     def raw(self, *args, expect=0):
         """A run whose output must be valid UTF-8."""
-        done = subprocess.run([PROGRAM, *args], capture_output=True, timeout=120)
+        done = subprocess.run([PROGRAM, *args], capture_output=True, timeout=1800)
         self.assertEqual(done.returncode, expect, (args, done.stdout, done.stderr))
         return done.stdout, done.stderr.decode("utf-8")
 
@@ -71,7 +71,7 @@ class Names(Folder):
                             "--json")[0]
         json.loads(compared.decode("utf-8"))
         done = subprocess.run([PROGRAM, "report", out, "--gallery", "1"], capture_output=True,
-                              timeout=120)
+                              timeout=1800)
         if b"no plots" in done.stderr:
             return
         self.assertEqual(done.returncode, 0, done.stderr)

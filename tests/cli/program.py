@@ -10,7 +10,7 @@ PROGRAM = sys.argv[1]
 
 
 def run(*args, expect=0, **options):
-    options.setdefault("timeout", 120)
+    options.setdefault("timeout", 1800)
     done = subprocess.run([PROGRAM, *args], capture_output=True, **options)
     said = done.stdout.decode("utf-8", "replace"), done.stderr.decode("utf-8", "replace")
     assert expect is None or done.returncode == expect, (args, done.returncode, *said)

@@ -26,7 +26,7 @@ MEASURES = {"D_ep_mm": 2, "D_sym_mm": 0.7, "K_E": 250, "K_g": 220, "F_g": 350, "
 
 
 def run(*args, expect=0, **options):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=240, **options)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800, **options)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 
@@ -36,14 +36,22 @@ def read(path):
         return file.read()
 
 
-def write_rows(path, participants=3, methods=("0", "1"), hostile=""):
-    """Rows as measure writes them: torus and hand, 12 strokes each, one of them noisy."""
+METHODS = {"0": "spraycan", "1": "mimicry"}
+SHAPES = {0: "torus", 4: "hand", 5: "fertility"}
+
+
+def write_rows(path, participants=3, methods=("spraycan", "mimicry"), hostile="", former=False):
+    """Rows as measure writes them: three shapes, 12 strokes each, one of them noisy. former: with the
+    names of earlier versions."""
     dice = random.Random(SEED)
+    numbers = {name: number for number, name in METHODS.items()}
+    identity = (["method", "shape", "index", "curve", "repeat", "task"] if former else
+                ["recording", "method", "method_number", "shape", "shape_number", "index", "curve",
+                 "repetition", "task"])
     with open(path, "w", encoding="utf-8", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(["method", "shape", "index", "curve", "repeat", "task", *MEASURES, "short",
-                       "noisy", "inverted", "mimicry_violation", "L_X_m", "pieces", "largest_jump",
-                       "share_jumping", "gaps", "participant"])
+        rows.writerow([*identity, *MEASURES, "short", "noisy", "inverted", "mimicry_violation", "L_X_m",
+                       "pieces", "largest_jump", "share_jumping", "gaps", "participant"])
         for person in range(participants):
             for m, method in enumerate(methods):
                 for shape in (0, 4, 5):
@@ -54,10 +62,13 @@ def write_rows(path, participants=3, methods=("0", "1"), hostile=""):
                         values = [repr(v * scale * dice.lognormvariate(0, 0.2))
                                   for v in MEASURES.values()]
                         noisy = int(person == 1 and shape == 4 and index == 3 and m == 0)
-                        rows.writerow([method, shape, index, curve, repeat,
-                                       ("tracing", "re-creating")[half], *values, 0, noisy, 0,
-                                       dice.random() / 3, 0.3, 1, dice.lognormvariate(1, 1),
-                                       max(0, dice.gauss(0, 0.01)), 0, f"p{person}{hostile}"])
+                        number = numbers.get(method, "")
+                        who = ([number or method, shape] if former else
+                               [f"{number or 2}_{shape}.json", method, number, SHAPES[shape], shape])
+                        rows.writerow([*who, index, curve, repeat, ("tracing", "re-creating")[half],
+                                       *values, 0, noisy, 0, dice.random() / 3, 0.3, 1,
+                                       dice.lognormvariate(1, 1), max(0, dice.gauss(0, 0.01)), 0,
+                                       f"p{person}{hostile}"])
 
 
 def data_of(page):
@@ -85,7 +96,7 @@ class Report(unittest.TestCase):
         ours = data_of(page)["comparisons"]
         self.assertEqual([(c["a"], c["b"]) for c in ours], [("spraycan", "mimicry")])
         same = json.loads(run("compare", self.rows, "-m", "spraycan,mimicry", "--resamples", "500",
-                              "--without", "shape=0", "--json").stdout)
+                              "--without", "shape=torus", "--json").stdout)
         theirs = same["groups"]
         self.assertEqual(ours[0]["agreement"], same["agreement"])
         self.assertEqual([g["group"] for g in ours[0]["groups"]],
@@ -145,12 +156,10 @@ class Report(unittest.TestCase):
         self.assertEqual((data["tasks"], data["shapes"]),
                          (["tracing", "re-creating"], ["hand", "fertility"]))
         with open(self.rows, encoding="utf-8") as file:
-            rows = [r for r in csv.DictReader(file) if r["shape"] != "0" and r["noisy"] == "0"]
+            rows = [r for r in csv.DictReader(file) if r["shape"] != "torus" and r["noisy"] == "0"]
         for box in data["by_shape"]:
-            shape = {"hand": "4", "fertility": "5"}[box["group"]]
-            method = {"spraycan": "0", "mimicry": "1"}[box["method"]]
             values = sorted(float(r[box["measure"]]) for r in rows
-                            if (r["shape"], r["method"]) == (shape, method))
+                            if (r["shape"], r["method"]) == (box["group"], box["method"]))
             self.assertEqual(box["strokes"], len(values))
             n = len(values)
             middle = (values[(n - 1) // 2] + values[n // 2]) / 2
@@ -159,11 +168,11 @@ class Report(unittest.TestCase):
         plot = data["scatter"][0]["plots"][0]
         self.assertEqual((plot["measure"], len(plot["points"])), ("K_E", 71))
         # Changes of repeats: none of these is five deviations off.
-        mine = [r for r in rows if r["method"] == "1"]
+        mine = [r for r in rows if r["method"] == "mimicry"]
         key = lambda r: (r["participant"], r["shape"], r["task"], r["curve"])
-        first = {key(r): float(r["F_g"]) for r in mine if r["repeat"] == "0"}
+        first = {key(r): float(r["F_g"]) for r in mine if r["repetition"] == "0"}
         changes = [abs(first[key(r)] - float(r["F_g"])) / first[key(r)]
-                   for r in mine if r["repeat"] == "1"]
+                   for r in mine if r["repetition"] == "1"]
         self.assertRegex(page, r"</span>mimicry</td>.*<td>12</td><td>[\d.]+ %%</td><td>%.1f %%</td>"
                          % (100 * sum(changes) / len(changes)))
         # The line goes through the mean of the logarithms.
@@ -211,7 +220,7 @@ class Report(unittest.TestCase):
         self.assertNotRegex(page, r'(src|href)="(?!#|data:)')
         done = subprocess.run(["node", os.path.join(SCRIPTS, "test", "open_page.mjs"), CHROMIUM,
                                os.path.join(self.folder, "report.html")],
-                              capture_output=True, text=True, timeout=200, check=False)
+                              capture_output=True, text=True, timeout=1800, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         seen = json.loads(done.stdout)
         self.assertEqual((seen["drawn"], seen["errors"]), ("yes", []))
@@ -249,8 +258,8 @@ class Report(unittest.TestCase):
         self.assertEqual(group["group"], "task tracing")
         with open(self.rows, encoding="utf-8") as file:
             rows = [r for r in csv.DictReader(file)
-                    if r["shape"] != "0" and r["task"] == "tracing"
-                    and (r["participant"], r["shape"], r["index"]) != ("p1", "4", "3")]
+                    if r["shape"] != "torus" and r["task"] == "tracing"
+                    and (r["participant"], r["shape"], r["index"]) != ("p1", "hand", "3")]
         table = re.search(r'<table class="comparison">.*?</table>', page, re.S).group(0)
         cells = [[html.unescape(re.sub("<[^>]*>", "", c)) for c in re.findall("<td.*?</td>", line)]
                  for line in table.splitlines() if line.startswith("<tr><td")]
@@ -258,9 +267,9 @@ class Report(unittest.TestCase):
             means = {}
             for r in rows:
                 means.setdefault((r["participant"], r["method"]), []).append(float(r[measure["measure"]]))
-            differences = sorted((sum(means[p, "0"]) / len(means[p, "0"])
-                                  - sum(means[p, "1"]) / len(means[p, "1"])
-                                  for p, m in means if m == "0"), key=abs)
+            differences = sorted((sum(means[p, m]) / len(means[p, m])
+                                  - sum(means[p, "mimicry"]) / len(means[p, "mimicry"])
+                                  for p, m in means if m == "spraycan"), key=abs)
             # Counted over all 2^8 signs.
             plus = sum(i + 1 for i, d in enumerate(differences) if d > 0)
             sums = [sum(i + 1 for i in range(8) if s >> i & 1) for s in range(256)]
@@ -306,6 +315,14 @@ class Report(unittest.TestCase):
                              name != "scatter-spraycan-mimicry" else named[0][1].text]])
             self.assertFalse([t.text for t in texts if "_" in "".join(t.itertext())])
 
+    def test_rows_of_earlier_versions_give_the_same_page(self):
+        write_rows(self.rows)
+        _, page = self.report("--gallery", "0")
+        write_rows(self.rows, former=True)
+        done, former = self.report("--gallery", "0")
+        self.assertEqual(former, page)
+        self.assertIn("rows.csv: is of an earlier version; its column 'repeat'", done.stderr)
+
     def test_what_is_left_out(self):
         write_rows(self.rows)
         _, page = self.report("--gallery", "0")
@@ -317,7 +334,7 @@ class Report(unittest.TestCase):
         self.assertEqual(data_of(page)["shapes"], ["torus", "hand", "fertility"])
 
     def test_one_technique(self):
-        write_rows(self.rows, methods=("1",))
+        write_rows(self.rows, methods=("mimicry",))
         _, page = self.report("--gallery", "0")
         self.assertIn("nothing to compare", page)
         self.assertEqual(data_of(page)["scatter"], [])
@@ -383,7 +400,7 @@ class Report(unittest.TestCase):
         where = ("--shapes", os.path.join(self.folder, "shapes"), "--targets",
                  os.path.join(self.folder, "targets.json"))
         run("measure", os.path.join(self.folder, "p1"), os.path.join(self.folder, "p2"), *where,
-            "--all", "--out", self.rows, expect=5)
+            "--out", self.rows, expect=5)
         done, page = self.report("--keep-tutorial", "--gallery", "2", *where)
         self.assertEqual(page.count('src="data:image/png;base64,'), 8)
         self.assertNotIn("without a picture", page)

@@ -16,13 +16,15 @@ import unittest
 PROGRAM, STUDY = sys.argv[1:3]
 CELLS = 10  # of the plate, a side
 SCALE = 0.4  # metres per mesh unit
-COLUMNS = ("method,shape,index,curve,repeat,task,D_ep_mm,D_sym_mm,K_E,K_g,F_g,T_h,R_h,T_c,R_c,"
-           "tau_s,short,noisy,inverted,mimicry_violation,L_X_m,pieces").split(",")
+COLUMNS = ("participant,stroke,recording,method,method_number,shape,shape_number,index,curve,repetition,task,"
+           "simulated,D_ep_mm,D_sym_mm,K_E,K_g,F_g,T_h,R_h,T_c,R_c,tau_s,short,noisy,inverted,"
+           "mimicry_violation,L_X_m,pieces,K_g_normalised,largest_jump,share_jumping,gaps,frechet_mm,"
+           "end_lag_mm,length_ratio,boundary_nodes,undefined_nodes,frames,missed,rejected").split(",")
 ORDER = [3, 1, 0, 2, 4, 3, 7, 5, 6, 9, 8, 7]
 
 
 def run(*args, expect=0):
-    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=200)
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800)
     assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
     return done
 
@@ -273,9 +275,12 @@ class Study(unittest.TestCase):
         self.assertEqual(rejected, [])
         self.assertEqual(len(rows), 12)
         for i, row in enumerate(rows):
-            self.assertEqual([row[c] for c in COLUMNS[:6]],
-                             ["1", "0", str(i), str(ORDER[i]), "1" if i in (5, 11) else "0",
-                              "tracing" if i < 6 else "re-creating"])
+            self.assertEqual([row[c] for c in COLUMNS[:12]],
+                             ["p1", "", "1_0.json", "mimicry", "1", "torus", "0", str(i),
+                              str(ORDER[i]), "1" if i in (5, 11) else "0",
+                              "tracing" if i < 6 else "re-creating", ""])
+            self.assertEqual(int(row["frames"]), sum(len(p["F"]) for p in self.strokes[i]))
+            self.assertEqual((row["missed"], row["rejected"]), ("", ""))
             self.check(row, self.strokes[i], ORDER[i])
         self.assertEqual(rows[3]["pieces"], "3")
 
@@ -307,18 +312,22 @@ class Study(unittest.TestCase):
         rows, rejected, done = self.measure(self.participant(
             methods=(0, 1), files={"0_0.json": self.strokes, "1_0.json": spray}))
         self.assertEqual(rejected, [])
-        self.assertEqual([r["method"] for r in rows], ["1"] * 12 + ["0"] * 12)
+        self.assertEqual([(r["recording"], r["method"], r["method_number"]) for r in rows],
+                         [("0_0.json", "mimicry", "1")] * 12 + [("1_0.json", "spraycan", "0")] * 12)
         self.assertIn("0_0.json: holds strokes of M 'AnchorPhong'", done.stderr)
 
     def test_several_participants(self):
         rows, _, _ = self.measure(self.participant(), self.participant("p2"))
-        self.assertEqual(list(rows[0]), COLUMNS + ["participant"])
+        self.assertEqual(list(rows[0]), COLUMNS)
         self.assertEqual([r["participant"] for r in rows], ["p1"] * 12 + ["p2"] * 12)
         again, _, _ = self.measure(self.path("p1"), self.path("p2"), more=["--threads", "1"])
         self.assertEqual(rows, again)
 
     def test_more_measures(self):
-        rows, _, _ = self.measure(self.participant(), more=["--all"])
+        rows, _, _ = self.measure(self.participant())
+        same, _, done = self.measure(self.path("p1"), more=["--all"])
+        self.assertEqual(same, rows)
+        self.assertIn("--all is no longer needed", done.stderr)
         self.assertGreater(float(rows[0]["largest_jump"]), 1)
         self.assertEqual([r["gaps"] for r in rows], ["2" if i == 3 else "0" for i in range(12)])
         pieces, _, _ = self.measure(self.path("p1"), more=["--per-piece"])
@@ -358,8 +367,11 @@ class Study(unittest.TestCase):
         os.mkdir(self.path("nobody"))
         rows, rejected, _ = self.measure(participant, self.path("nobody"), expect=5)
         self.assertEqual(len(rows), 12)
-        found = {(r["participant"].split("/")[-1], r["method"], r["shape"]): r["reason"]
+        found = {(r["participant"].split("/")[-1], r["method_number"], r["shape_number"]): r["reason"]
                  for r in rejected}
+        self.assertEqual({(r["recording"], r["method"], r["shape"]) for r in rejected},
+                         {("", "", ""), ("1_1.json", "mimicry", "cube"), ("0_0.json", "spraycan", "torus"),
+                          ("0_1.json", "spraycan", "cube")})
         self.assertEqual(set(found), {("nobody", "", ""), ("p1", "1", "1"), ("p1", "0", "0"),
                                       ("p1", "0", "1")})
         self.assertIn("has no mesh cube.obj", found["p1", "1", "1"])

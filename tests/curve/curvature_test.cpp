@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/curve/curvature.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/curve/projected_curve.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"
+#include "geodesic/site.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 namespace {
 
 using std::numbers::pi;
@@ -20,15 +20,14 @@ using test::Drawn;
 using test::kMiddle;
 
 CurveCurvature measure(const Drawn& drawn, const ProjectedCurve& curve) {
-  return curvature(refine(curve, drawn.mesh, drawn.edges), drawn.mesh, drawn.edges);
+  return curvature(refine(curve, drawn.surface), drawn.surface);
 }
 
 ProjectedCurve traced(const Drawn& drawn, const SurfacePoint& from, const Vec3& direction,
                       double length) {
   ProjectedCurve curve;
-  const geodesic::Trace trace = geodesic::trace_straightest(drawn.mesh, drawn.edges, from,
-                                                            direction, length, &curve.crossings);
-  EXPECT_EQ(trace.stop, geodesic::TraceStop::complete);
+  const Trace trace = trace_straightest(drawn.surface, from, direction, length, &curve.crossings);
+  EXPECT_EQ(trace.stop, TraceStop::complete);
   curve.points = {drawn.point(from), drawn.point(trace.end)};
   curve.pieces = {{PieceKind::locally_shortest, trace.length, 0,
                    static_cast<std::uint32_t>(curve.crossings.size())}};
@@ -129,8 +128,8 @@ TEST(Curvature, ShortestPathsOnRoughSurfacesDeviateAtTheirEndsAndVerticesOnly) {
       if (i % 3 == 2) p.bary[k] = 0.0, p.bary /= p.bary.sum();  // an edge
       points.push_back(p);
     }
-    const RefinedCurve refined = refine(rough.curve(points), rough.mesh, rough.edges);
-    const auto measured = curvature(refined, rough.mesh, rough.edges);
+    const RefinedCurve refined = refine(rough.curve(points), rough.surface);
+    const auto measured = curvature(refined, rough.surface);
     ASSERT_EQ(refined.parts.size(), 1u);
     EXPECT_EQ(measured.undefined_nodes, 0u);
     std::vector<bool> is_point(refined.nodes.size(), false);
@@ -143,7 +142,7 @@ TEST(Curvature, ShortestPathsOnRoughSurfacesDeviateAtTheirEndsAndVerticesOnly) {
       // Snapping moves an end by 1e-7 of an edge at most.
       const double moved = 1e-7 / shortest;
       if (is_point[i] || moved > 1e-3) continue;
-      if (geodesic::site_of(rough.mesh, node[i].point).kind == geodesic::Site::Kind::edge) {
+      if (site_of(rough.mesh, node[i].point).kind == Site::Kind::edge) {
         EXPECT_LT(std::abs(measured.deviation[i]), 4.0 * moved + 1e-12);
         ++edges;
       } else {  // a saddle: pi or more on both sides
@@ -166,4 +165,4 @@ TEST(Curvature, BoundaryVerticesAreSkippedAndCounted) {
 }
 
 }  // namespace
-}  // namespace mimicry::curve
+}  // namespace mimicry

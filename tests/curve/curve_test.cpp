@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/curve/curve_builder.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "curve/curve_builder.h"
 #include "curve/support.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 namespace {
 
 using test::Drawn;
@@ -15,7 +15,7 @@ using test::kMiddle;
 
 TEST(Curve, EveryPieceRunsFromPointToPointAcrossNeighbouringFaces) {
   const Drawn sphere{make_sphere(8)};
-  CurveBuilder builder(sphere.mesh, sphere.edges);
+  CurveBuilder builder(sphere.surface);
   for (Index f = 0; f < sphere.mesh.face_count(); f += 37)
     builder.append(sphere.point({f, kMiddle}));
   const ProjectedCurve& curve = builder.curve();
@@ -43,7 +43,7 @@ TEST(Curve, EveryPieceRunsFromPointToPointAcrossNeighbouringFaces) {
 TEST(Curve, APieceOnASphereIsAnArcOfAGreatCircle) {
   const Drawn sphere{make_sphere(40)};
   for (Index f = 0; f < sphere.mesh.face_count(); f += 4001) {
-    CurveBuilder builder(sphere.mesh, sphere.edges);
+    CurveBuilder builder(sphere.surface);
     builder.append(sphere.point({0, kMiddle}));
     builder.append(sphere.point({f, kMiddle}));
     const Vec3 a = builder.curve().points[0].position.normalized();
@@ -56,7 +56,7 @@ TEST(Curve, APieceOnASphereIsAnArcOfAGreatCircle) {
 
 TEST(Curve, PointsOnDifferentComponentsAreJoinedByAChord) {
   const Drawn two{make_two_spheres(4)};
-  CurveBuilder builder(two.mesh, two.edges);
+  CurveBuilder builder(two.surface);
   builder.append(two.point({0, kMiddle}));
   builder.append(two.point({two.mesh.face_count() - 1, kMiddle}));
   ASSERT_EQ(builder.curve().pieces.size(), 1u);
@@ -67,7 +67,7 @@ TEST(Curve, PointsOnDifferentComponentsAreJoinedByAChord) {
 
 TEST(Curve, BreakMakesAGapAndTwoPolylines) {
   const Drawn sphere{make_sphere(4)};
-  CurveBuilder builder(sphere.mesh, sphere.edges);
+  CurveBuilder builder(sphere.surface);
   builder.break_here();  // before the first point: nothing to break
   builder.append(sphere.point({0, kMiddle}));
   builder.append(sphere.point({1, kMiddle}));
@@ -83,7 +83,7 @@ TEST(Curve, BreakMakesAGapAndTwoPolylines) {
 
 TEST(Curve, FollowsItsTargetByBarycentrics) {
   Drawn sphere{make_sphere(6)};
-  CurveBuilder builder(sphere.mesh, sphere.edges);
+  CurveBuilder builder(sphere.surface);
   for (Index f = 0; f < 200; f += 20) builder.append(sphere.point({f, kMiddle}));
   ProjectedCurve curve = builder.curve();
   std::vector<Vec3> moved;
@@ -97,4 +97,4 @@ TEST(Curve, FollowsItsTargetByBarycentrics) {
 }
 
 }  // namespace
-}  // namespace mimicry::curve
+}  // namespace mimicry

@@ -6,25 +6,23 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/curve/curvature.h>
 #include <mimicry/curve/edit.h>
-#include <mimicry/geodesic/along.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "curve/support.h"
+#include "geodesic/along.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 namespace {
 
-using geodesic::PathLabel;
 using std::numbers::pi;
 using test::Drawn;
 using test::kMiddle;
 
 double turning(const Drawn& drawn, const ProjectedCurve& curve) {
-  return curvature(refine(curve, drawn.mesh, drawn.edges), drawn.mesh, drawn.edges)
-      .total_absolute_deviation;
+  return curvature(refine(curve, drawn.surface), drawn.surface).total_absolute_deviation;
 }
 
 bool same_bits(const ProjectedCurve& a, const ProjectedCurve& b) {
@@ -61,7 +59,7 @@ TEST(Close, JoinsTheEndsByTheShortestPath) {
   const std::vector<SurfacePoint> ends = {{3, kMiddle}, {200, kMiddle}, {420, kMiddle}};
   ProjectedCurve curve = torus.curve(ends);
   const double open = length(curve);
-  const Closing closing = close(curve, torus.mesh, torus.edges);
+  const Closing closing = close(curve, torus.surface);
   EXPECT_TRUE(closing.closed && curve.closed);
   EXPECT_EQ(closing.label, PathLabel::shortest);
   ASSERT_EQ(curve.points.size(), 4u);
@@ -71,11 +69,11 @@ TEST(Close, JoinsTheEndsByTheShortestPath) {
   EXPECT_EQ(length(curve), open + length(torus.curve(back)));
   // Again: nothing changes.
   const ProjectedCurve before = curve;
-  EXPECT_TRUE(close(curve, torus.mesh, torus.edges).closed);
+  EXPECT_TRUE(close(curve, torus.surface).closed);
   EXPECT_TRUE(same_bits(curve, before));
   // A curve that came back by itself needs no piece.
   curve.closed = false;
-  EXPECT_TRUE(close(curve, torus.mesh, torus.edges).closed);
+  EXPECT_TRUE(close(curve, torus.surface).closed);
   EXPECT_TRUE(same_bits(curve, before));
 }
 
@@ -85,7 +83,7 @@ TEST(Close, LeavesACurveThatTheSurfaceDoesNotJoin) {
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
     ProjectedCurve curve = two.curve(std::span(ends).first(count));
     const ProjectedCurve before = curve;
-    const Closing closing = close(curve, two.mesh, two.edges);
+    const Closing closing = close(curve, two.surface);
     EXPECT_FALSE(closing.closed);
     EXPECT_EQ(closing.label, PathLabel::disconnected);
     EXPECT_TRUE(same_bits(curve, before));
@@ -98,8 +96,7 @@ TEST(Smooth, TakesTheTurnsOutOfANoisyCurve) {
     const ProjectedCurve noisy = noisy_ring(torus, closed);
     double before = turning(torus, noisy);
     for (const int iterations : {1, 4, 16}) {
-      const ProjectedCurve smoothed =
-          smooth(noisy, torus.mesh, torus.edges, torus.normals, {0.8, iterations});
+      const ProjectedCurve smoothed = smooth(noisy, torus.surface, {0.8, iterations});
       EXPECT_LT(turning(torus, smoothed), 0.8 * before);
       before = turning(torus, smoothed);
       ASSERT_EQ(smoothed.points.size(), noisy.points.size());
@@ -121,25 +118,24 @@ TEST(Smooth, StrengthOneTakesAZigzagOutAtOnce) {
   const Drawn plane{make_grid(6)};
   std::vector<Vec3> zigzag;
   for (int i = 0; i <= 10; ++i) zigzag.emplace_back(-0.75 + 0.15 * i, i % 2 == 0 ? 0.1 : -0.1, 0.0);
-  const ProjectedCurve smoothed =
-      smooth(plane.curve_near(zigzag), plane.mesh, plane.edges, plane.normals, {1.0, 1});
+  const ProjectedCurve smoothed = smooth(plane.curve_near(zigzag), plane.surface, {1.0, 1});
   for (std::size_t i = 1; i < 10; ++i)
     EXPECT_LT((smoothed.points[i].position - Vec3(zigzag[i].x(), 0, 0)).norm(), 1e-12);
 }
 
 TEST(Smooth, AGeodesicStays) {
   const Drawn torus{make_torus(40, 16)};
-  geodesic::LocalPathFinder paths(torus.mesh, torus.edges);
+  LocalPathFinder paths(torus.surface);
   const SurfacePoint from{3, {0.2, 0.3, 0.5}};
   const SurfacePoint to{300, kMiddle};
   std::vector<Crossing> crossings;
   ASSERT_EQ(paths.find(from, to, crossings).label, PathLabel::shortest);
   std::vector<SurfacePoint> along;
   for (int i = 0; i <= 20; ++i)  // uneven
-    along.push_back(geodesic::point_along(torus.mesh, torus.edges, from, crossings, to,
-                                          std::pow(i / 20.0, 1.5)));
+    along.push_back(
+        point_along(torus.mesh, torus.edges, from, crossings, to, std::pow(i / 20.0, 1.5)));
   const ProjectedCurve curve = torus.curve(along);
-  const ProjectedCurve smoothed = smooth(curve, torus.mesh, torus.edges, torus.normals, {1.0, 10});
+  const ProjectedCurve smoothed = smooth(curve, torus.surface, {1.0, 10});
   for (std::size_t i = 0; i < along.size(); ++i)
     EXPECT_LT((smoothed.points[i].position - curve.points[i].position).norm(), 1e-10) << i;
 }
@@ -147,17 +143,17 @@ TEST(Smooth, AGeodesicStays) {
 TEST(Smooth, StrengthZeroChangesNothingAndGapsHoldTheirEnds) {
   const Drawn torus{make_torus(40, 16)};
   ProjectedCurve curve = noisy_ring(torus, false);
-  EXPECT_TRUE(same_bits(smooth(curve, torus.mesh, torus.edges, torus.normals, {0.0, 5}), curve));
-  EXPECT_TRUE(same_bits(smooth(curve, torus.mesh, torus.edges, torus.normals, {1.0, 0}), curve));
+  EXPECT_TRUE(same_bits(smooth(curve, torus.surface, {0.0, 5}), curve));
+  EXPECT_TRUE(same_bits(smooth(curve, torus.surface, {1.0, 0}), curve));
   curve.pieces[30].kind = PieceKind::gap;
-  const ProjectedCurve smoothed = smooth(curve, torus.mesh, torus.edges, torus.normals, {0.7, 3});
+  const ProjectedCurve smoothed = smooth(curve, torus.surface, {0.7, 3});
   EXPECT_EQ(smoothed.pieces[30].kind, PieceKind::gap);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const bool fixed = i == 0 || i == 30 || i == 31 || i + 1 == curve.points.size();
     EXPECT_EQ(smoothed.points[i].position == curve.points[i].position, fixed) << i;
   }
-  EXPECT_THROW(smooth(curve, torus.mesh, torus.edges, torus.normals, {1.1, 1}), Error);
-  EXPECT_THROW(smooth(curve, torus.mesh, torus.edges, torus.normals, {0.5, -1}), Error);
+  EXPECT_THROW(smooth(curve, torus.surface, {1.1, 1}), Error);
+  EXPECT_THROW(smooth(curve, torus.surface, {0.5, -1}), Error);
 }
 
 TEST(Simplify, KeepsTheCornersOfAPolyline) {
@@ -166,7 +162,7 @@ TEST(Simplify, KeepsTheCornersOfAPolyline) {
   for (int i = 0; i <= 10; ++i) corner.emplace_back(-0.8 + 0.13 * i, -0.6, 0.0);
   for (int i = 1; i <= 10; ++i) corner.emplace_back(0.5, -0.6 + 0.11 * i, 0.0);
   const ProjectedCurve curve = plane.curve_near(corner);
-  const ProjectedCurve simple = simplify(curve, plane.mesh, plane.edges, 1e-9);
+  const ProjectedCurve simple = simplify(curve, plane.surface, 1e-9);
   ASSERT_EQ(simple.points.size(), 3u);
   EXPECT_EQ(simple.points[1].frame, 10);
   EXPECT_NEAR(length(simple), length(curve), 1e-12);
@@ -178,7 +174,7 @@ TEST(Simplify, EveryPointStaysWithinTheTolerance) {
     for (const double tolerance : {0.01, 0.03, 0.1}) {
       ProjectedCurve curve = noisy_ring(torus, closed);
       curve.pieces[50].kind = PieceKind::gap;
-      const ProjectedCurve simple = simplify(curve, torus.mesh, torus.edges, tolerance);
+      const ProjectedCurve simple = simplify(curve, torus.surface, tolerance);
       EXPECT_LT(simple.points.size(), curve.points.size());
       EXPECT_EQ(simple.closed, closed);
       EXPECT_EQ(simple.points.front().position, curve.points.front().position);
@@ -203,10 +199,10 @@ TEST(Simplify, EveryPointStaysWithinTheTolerance) {
 TEST(Simplify, ALargeToleranceLeavesTheEnds) {
   const Drawn torus{make_torus(40, 16)};
   const ProjectedCurve curve = noisy_ring(torus, false);
-  EXPECT_EQ(simplify(curve, torus.mesh, torus.edges, 10.0).points.size(), 2u);
-  EXPECT_EQ(simplify(curve, torus.mesh, torus.edges, 0.0).points.size(), curve.points.size());
-  EXPECT_TRUE(simplify({}, torus.mesh, torus.edges, 1.0).points.empty());
-  EXPECT_THROW(simplify(curve, torus.mesh, torus.edges, -1.0), Error);
+  EXPECT_EQ(simplify(curve, torus.surface, 10.0).points.size(), 2u);
+  EXPECT_EQ(simplify(curve, torus.surface, 0.0).points.size(), curve.points.size());
+  EXPECT_TRUE(simplify({}, torus.surface, 1.0).points.empty());
+  EXPECT_THROW(simplify(curve, torus.surface, -1.0), Error);
 }
 
 TEST(Slice, PartsMakeUpTheWhole) {
@@ -235,8 +231,7 @@ TEST(Resampled, StepsAreEqualAndTimesLieBetween) {
     ring.points[i].time_s = 0.1 * static_cast<double>(i);
     ring.points[i].frame = static_cast<Index>(i);
   }
-  const std::vector<Vec3> normals = angle_weighted_normals(torus.mesh);
-  const ProjectedCurve even = resampled(ring, torus.mesh, torus.edges, normals, 1000);
+  const ProjectedCurve even = resampled(ring, torus.surface, 1000);
   ASSERT_EQ(even.points.size(), 1000u);
   EXPECT_TRUE(even.closed);
   // Corners are cut by steps of a tenth of a piece.
@@ -247,13 +242,13 @@ TEST(Resampled, StepsAreEqualAndTimesLieBetween) {
     EXPECT_EQ(even.points[i].frame,
               static_cast<Index>(std::floor(even.points[i].time_s / 0.1 + 1e-9)));
   }
-  EXPECT_THROW(resampled(ring, torus.mesh, torus.edges, normals, 1), Error);
+  EXPECT_THROW(resampled(ring, torus.surface, 1), Error);
 
   ring.pieces[40].kind = PieceKind::gap;
   ring.pieces[40].crossing_count = 0;
-  const ProjectedCurve broken = resampled(ring, torus.mesh, torus.edges, normals, 1000);
+  const ProjectedCurve broken = resampled(ring, torus.surface, 1000);
   EXPECT_EQ(polylines(broken, torus.mesh).size(), 2u);
 }
 
 }  // namespace
-}  // namespace mimicry::curve
+}  // namespace mimicry

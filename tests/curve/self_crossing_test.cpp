@@ -1,21 +1,22 @@
+#include "curve/self_crossing.h"
+
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/curve/self_crossing.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "curve/support.h"
 
-namespace mimicry::curve {
+namespace mimicry {
 namespace {
 
 using test::Drawn;
 
 bool crosses(const Drawn& drawn, const ProjectedCurve& curve) {
-  return self_crossing(refine(curve, drawn.mesh, drawn.edges), drawn.mesh).has_value();
+  return self_crossing(refine(curve, drawn.surface), drawn.mesh).has_value();
 }
 
 TEST(SelfCrossing, OfALoopAndNotOfAWave) {
@@ -35,7 +36,7 @@ TEST(SelfCrossing, NamesTheSegments) {
   const Drawn grid{make_grid(1)};  // two faces: every point its own node, crossings between
   const auto curve = grid.curve_near(std::vector<Vec3>{Vec3(0.2, -0.8, 0), Vec3(0.8, -0.2, 0),
                                                        Vec3(0.8, -0.8, 0), Vec3(0.2, -0.4, 0)});
-  const auto found = self_crossing(refine(curve, grid.mesh, grid.edges), grid.mesh);
+  const auto found = self_crossing(refine(curve, grid.surface), grid.mesh);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->first, 0u);
   EXPECT_EQ(found->second, 2u);
@@ -93,4 +94,4 @@ TEST(SelfCrossing, EqualsAllPairsOnAPlane) {
 }
 
 }  // namespace
-}  // namespace mimicry::curve
+}  // namespace mimicry

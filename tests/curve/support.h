@@ -4,21 +4,22 @@
 #include <utility>
 #include <vector>
 
-#include <mimicry/curve/curve_builder.h>
-#include <mimicry/mesh/normals.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve::test {
+#include "curve/curve_builder.h"
+
+namespace mimicry::test {
 
 inline const Vec3 kMiddle = Vec3::Constant(1.0 / 3.0);
 
 /// A target to draw on.
 struct Drawn {
-  explicit Drawn(TriangleMesh m) : mesh(std::move(m)) {}
+  explicit Drawn(TriangleMesh m) : surface(Surface::as_given(std::move(m))) {}
 
-  TriangleMesh mesh;
-  HalfEdges edges{mesh};
-  std::vector<Vec3> normals = angle_weighted_normals(mesh);
+  Surface surface;
+  const TriangleMesh& mesh = surface.mesh();
+  const HalfEdges& edges = surface.half_edges();
+  std::span<const Vec3> normals = surface.vertex_normals();
 
   CurvePoint point(const SurfacePoint& p, Index frame = 0) const {
     return {p, mesh.position(p), interpolated_normal(mesh, normals, p), frame, 0.0, 0.0};
@@ -48,7 +49,7 @@ struct Drawn {
 
   /// Points joined by shortest paths; a closed curve's last point must be its first.
   ProjectedCurve curve(std::span<const SurfacePoint> points, bool closed = false) const {
-    CurveBuilder builder(mesh, edges);
+    CurveBuilder builder(surface);
     for (const SurfacePoint& p : points)
       builder.append(point(p, static_cast<Index>(builder.curve().points.size())));
     ProjectedCurve curve = builder.curve();
@@ -62,4 +63,4 @@ struct Drawn {
   }
 };
 
-}  // namespace mimicry::curve::test
+}  // namespace mimicry::test

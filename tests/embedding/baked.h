@@ -11,12 +11,12 @@
 #include <mimicry/embedding/smooth_projector.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::embedding {
+namespace mimicry {
 
 /// A shape with its bake.
 struct Baked {
   std::string name;
-  spatial::Target target;
+  Target target;
   SmoothProjector projector;
 
   Baked(std::string n, const TriangleMesh& mesh)
@@ -24,7 +24,7 @@ struct Baked {
   static Embedding baked(const TriangleMesh& mesh) {
     BakeOptions options;
     options.samples = 150;
-    return bake::bake(mesh, options);
+    return mimicry::bake(mesh, options);
   }
 
   SurfacePoint random_point(Random& random) const {
@@ -60,4 +60,4 @@ inline const Baked& sphere() {
   return *shapes()[0];
 }
 
-}  // namespace mimicry::embedding
+}  // namespace mimicry

@@ -4,7 +4,7 @@
 
 #include <mimicry/embedding/embedding.h>
 
-namespace mimicry::embedding {
+namespace mimicry {
 namespace {
 
 TEST(ContentHash, ChangesWithEveryBit) {
@@ -30,4 +30,4 @@ TEST(ContentHash, IsTheSameOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace mimicry::embedding
+}  // namespace mimicry

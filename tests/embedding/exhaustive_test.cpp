@@ -13,10 +13,10 @@
 #include <mimicry/base/parallel.h>
 #include <mimicry/base/random.h>
 #include <mimicry/embedding/smooth_projector.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::embedding {
+namespace mimicry {
 namespace {
 
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -31,8 +31,8 @@ constexpr bool kIsFast = false;
 void expect_the_same(const std::string& name, const TriangleMesh& mesh, std::uint64_t seed) {
   BakeOptions options;
   options.samples = 60;  // of no matter to the search
-  const spatial::Target target(mesh);
-  const SmoothProjector projector(bake::bake(mesh, options, 2), target);
+  const Target target(mesh);
+  const SmoothProjector projector(mimicry::bake(mesh, options, 2), target);
   Random random(seed);
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -55,20 +55,23 @@ void expect_the_same(const std::string& name, const TriangleMesh& mesh, std::uin
                              << points[i].transpose();
 }
 
-TEST(Exhaustive, EqualsTheFastSearchOnTheBuiltInShapes) {
-  std::uint64_t seed = 100;
-  for (const ShapeInfo& shape : builtin_shapes()) {
-    // Some 200 to 800 faces each.
-    int resolution = 6;
-    if (shape.name == "hand" || shape.name == "double-torus") resolution = 1;
-    if (shape.name == "plate" || shape.name == "grid") resolution = 14;
-    if (shape.name == "moebius") resolution = 40;
-    if (shape.name == "cylinder") resolution = 3;
-    if (shape.name == "torus") resolution = 9;
-    expect_the_same(std::string(shape.name), make_shape(shape.name, {.resolution = resolution}),
-                    ++seed);
-  }
+class ExhaustiveOnShape : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(ExhaustiveOnShape, EqualsTheFastSearch) {
+  const ShapeInfo& shape = builtin_shapes()[GetParam()];
+  // Some 200 to 800 faces each.
+  int resolution = 6;
+  if (shape.name == "hand" || shape.name == "double-torus") resolution = 1;
+  if (shape.name == "plate" || shape.name == "grid") resolution = 14;
+  if (shape.name == "moebius") resolution = 40;
+  if (shape.name == "cylinder") resolution = 3;
+  if (shape.name == "torus") resolution = 9;
+  expect_the_same(std::string(shape.name), make_shape(shape.name, {.resolution = resolution}),
+                  101 + GetParam());
 }
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, ExhaustiveOnShape,
+                         testing::Range(std::size_t{0}, builtin_shapes().size()));
 
 TEST(Exhaustive, EqualsTheFastSearchOnTheStudysShapes) {
   const std::filesystem::path folder = MIMICRY_STUDY_DATA;
@@ -79,9 +82,9 @@ TEST(Exhaustive, EqualsTheFastSearchOnTheStudysShapes) {
     if (!kIsFast && name != "trebol") continue;
     std::ostringstream bytes;
     bytes << std::ifstream(folder / (name + ".obj"), std::ios::binary).rdbuf();
-    expect_the_same("study " + name, io::read_mesh(bytes.str(), io::MeshFormat::obj, name), ++seed);
+    expect_the_same("study " + name, read_mesh(bytes.str(), MeshFormat::obj, name), ++seed);
   }
 }
 
 }  // namespace
-}  // namespace mimicry::embedding
+}  // namespace mimicry

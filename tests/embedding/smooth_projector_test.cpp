@@ -17,9 +17,10 @@
 
 #include "bench/normal_slide.h"
 #include "embedding/baked.h"
+#include "embedding/projection.h"
 #include "support/allocations.h"
 
-namespace mimicry::embedding {
+namespace mimicry {
 namespace {
 
 TEST(SmoothProjector, PointsOfTheMeshProjectToThemselves) {
@@ -70,7 +71,7 @@ TEST(SmoothProjector, LocatesInTheTetrahedronThatContains) {
     int outside = 0;
     for (int i = 0; i < 300; ++i) {
       const Vec3 y = shape->query(random);
-      const ShellPoint place = shape->projector.locate(y);
+      const ShellPoint place = shape->projector.projection().locate(y);
       if (place.tet == kNone) {
         // Everything within the offset is covered.
         const auto closest = shape->target.closest_point(y);
@@ -220,7 +221,7 @@ TEST(SmoothProjector, PointsOffTheSurfaceDoNotSlideAlongIt) {
 
 TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
   const Baked& shape = sphere();
-  const auto refused = [](Embedding e, const spatial::Target& target, const std::string& what) {
+  const auto refused = [](Embedding e, const Target& target, const std::string& what) {
     try {
       const SmoothProjector projector(std::move(e), target);
       ADD_FAILURE() << what;
@@ -232,7 +233,7 @@ TEST(SmoothProjector, RefusesWhatIsNotItsMesh) {
   std::vector<Vec3> moved(shape.target.mesh().positions().begin(),
                           shape.target.mesh().positions().end());
   moved[5][1] += 1e-12;
-  refused(shape.projector.embedding(), spatial::Target(shape.target.mesh().with_positions(moved)),
+  refused(shape.projector.embedding(), Target(shape.target.mesh().with_positions(moved)),
           "another mesh");
   Embedding e = shape.projector.embedding();
   e.tets[7][2] = e.vertex_count();
@@ -322,4 +323,4 @@ TEST(SmoothProjector, OnTheMedialAxisThereIsALabelledAnswer) {
 }
 
 }  // namespace
-}  // namespace mimicry::embedding
+}  // namespace mimicry

@@ -1,15 +1,15 @@
+#include "embedding/spline.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <mimicry/embedding/spline.h>
-
 #include "bench/edge_turns.h"
 #include "embedding/baked.h"
 
-namespace mimicry::embedding {
+namespace mimicry {
 namespace {
 
 TEST(Spline, OnAPlaneIsThePlanesSpline) {
@@ -26,7 +26,7 @@ TEST(Spline, OnAPlaneIsThePlanesSpline) {
 }
 
 // Controls about a fifth of the shape apart.
-std::vector<SurfacePoint> winding_controls(const spatial::Target& target) {
+std::vector<SurfacePoint> winding_controls(const Target& target) {
   std::vector<SurfacePoint> controls;
   for (int i = 0; i < 7; ++i) {
     const double a = 0.35 * i;
@@ -92,4 +92,4 @@ TEST(Spline, TurnsAcrossEdgesVanishAsTheMeshGetsFiner) {
 }
 
 }  // namespace
-}  // namespace mimicry::embedding
+}  // namespace mimicry

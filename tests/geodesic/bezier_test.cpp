@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/geodesic/along.h>
-#include <mimicry/geodesic/bezier.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "geodesic/along.h"
 #include "geodesic/support.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 const Vec3 kMiddle = Vec3::Constant(1.0 / 3.0);
@@ -24,8 +24,9 @@ Vec3 slerp(const Vec3& a, const Vec3& b, double t) {
 
 TEST(PointAlong, DividesAPathByLength) {
   const TriangleMesh plane = make_grid(5);
-  const HalfEdges edges(plane);
-  LocalPathFinder paths(plane, edges);
+  const Surface surface = Surface::as_given(plane);
+  const HalfEdges& edges = surface.half_edges();
+  LocalPathFinder paths(surface);
   const SurfacePoint from{2, {0.2, 0.3, 0.5}};
   const SurfacePoint to{47, kMiddle};
   std::vector<Crossing> crossings;
@@ -43,10 +44,10 @@ TEST(PointAlong, DividesAPathByLength) {
 
 TEST(Bezier, OnAPlaneItIsThePlanarOne) {
   const TriangleMesh plane = make_grid(8);
-  const HalfEdges edges(plane);
+  const Surface surface = Surface::as_given(plane);
   const std::vector<SurfacePoint> controls = {
       {3, kMiddle}, {70, {1, 0, 0}}, {120, {0.5, 0.5, 0}}, {17, {0.1, 0.2, 0.7}}};
-  const BezierCurve curve = bezier(plane, edges, controls, 41);
+  const BezierCurve curve = bezier(surface, controls, 41);
   ASSERT_TRUE(curve.connected && curve.all_shortest);
   ASSERT_EQ(curve.points.size(), 41u);
   EXPECT_EQ(curve.points.front().bary, controls.front().bary);
@@ -63,11 +64,11 @@ TEST(Bezier, OnAPlaneItIsThePlanarOne) {
 
 TEST(Bezier, OnASphereItFollowsGreatCirclesAndIsTheSameFromTheOtherEnd) {
   const TriangleMesh sphere = make_sphere(20);
-  const HalfEdges edges(sphere);
+  const Surface surface = Surface::as_given(sphere);
   std::vector<SurfacePoint> controls = {{10, kMiddle}, {700, kMiddle}, {1500, {0.6, 0.2, 0.2}}};
-  const BezierCurve curve = bezier(sphere, edges, controls, 21);
+  const BezierCurve curve = bezier(surface, controls, 21);
   std::reverse(controls.begin(), controls.end());
-  const BezierCurve reversed = bezier(sphere, edges, controls, 21);
+  const BezierCurve reversed = bezier(surface, controls, 21);
   ASSERT_EQ(curve.points.size(), 21u);
   std::vector<Vec3> at;
   for (const SurfacePoint& p : controls) at.push_back(sphere.position(p).normalized());
@@ -83,18 +84,18 @@ TEST(Bezier, OnASphereItFollowsGreatCirclesAndIsTheSameFromTheOtherEnd) {
 
 TEST(Bezier, DisconnectedControlPointsAreAResultAndBadOnesAnError) {
   const TriangleMesh two = make_two_spheres(4);
-  const HalfEdges edges(two);
+  const Surface surface = Surface::as_given(two);
   const std::vector<SurfacePoint> apart = {{0, kMiddle}, {two.face_count() - 1, kMiddle}};
-  const BezierCurve curve = bezier(two, edges, apart, 5);
+  const BezierCurve curve = bezier(surface, apart, 5);
   EXPECT_FALSE(curve.connected);
   EXPECT_TRUE(curve.points.empty());
   const std::vector<SurfacePoint> one = {{7, kMiddle}};
-  EXPECT_EQ(bezier(two, edges, one, 3).points.size(), 3u);
-  EXPECT_THROW(bezier(two, edges, {}, 3), Error);
-  EXPECT_THROW(bezier(two, edges, one, 1), Error);
+  EXPECT_EQ(bezier(surface, one, 3).points.size(), 3u);
+  EXPECT_THROW(bezier(surface, {}, 3), Error);
+  EXPECT_THROW(bezier(surface, one, 1), Error);
   const std::vector<SurfacePoint> off = {{7, kMiddle}, {two.face_count(), kMiddle}};
-  EXPECT_THROW(bezier(two, edges, off, 3), Error);
+  EXPECT_THROW(bezier(surface, off, 3), Error);
 }
 
 }  // namespace
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

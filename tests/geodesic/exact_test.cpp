@@ -9,7 +9,7 @@
 
 #include "geodesic/support.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 // A few hundred roundings of lengths of about 1.
@@ -17,8 +17,9 @@ constexpr double kRounding = 1e-12;
 
 TEST(ExactGeodesics, StraightLinesOnAPlaneFromEveryVertex) {
   const TriangleMesh mesh = make_grid(7);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     geodesics.compute(vertex_point(edges, v));
     for (Index w = 0; w < mesh.vertex_count(); ++w)
@@ -29,8 +30,8 @@ TEST(ExactGeodesics, StraightLinesOnAPlaneFromEveryVertex) {
 
 TEST(ExactGeodesics, StraightLinesOnAPlaneBetweenPointsOfFacesEdgesAndVertices) {
   const TriangleMesh mesh = make_grid(7);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  ExactGeodesics geodesics(surface);
   Random random(1);
   for (int i = 0; i < 60; ++i) {
     const SurfacePoint a = test::random_point(mesh, random);
@@ -50,8 +51,9 @@ TEST(ExactGeodesics, AllVertexPairsOfASubdividedCubeEqualItsUnfolding) {
   const TriangleMesh coarse = make_box(1, 1, 1, Vec3::Constant(0.5));
   const TriangleMesh mesh = make_box(3, 3, 3, Vec3::Constant(0.5));
   test::UnfoldingOracle oracle(coarse);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     geodesics.compute(vertex_point(edges, v));
     for (Index w = v; w < mesh.vertex_count(); ++w)
@@ -71,8 +73,8 @@ TEST(ExactGeodesics, PointsOfRandomTetrahedraEqualTheirUnfolding) {
     if (volume > 0) std::swap(p[0], p[1]);
     const TriangleMesh mesh(p, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
     test::UnfoldingOracle oracle(mesh);
-    const HalfEdges edges(mesh);
-    ExactGeodesics geodesics(mesh, edges);
+    const Surface surface = Surface::as_given(mesh);
+    ExactGeodesics geodesics(surface);
     for (int i = 0; i < 5; ++i) {
       const SurfacePoint a = test::random_point(mesh, random);
       geodesics.compute(a);
@@ -94,8 +96,9 @@ TEST(ExactGeodesics, ConesAndSaddlesEqualTheirUnrolling) {
   // Total angles of about 180, 360 and 480 degrees.
   for (const Case c : {Case{1.0, false}, Case{0.0, false}, Case{0.35, true}}) {
     const test::Cone cone = test::make_cone(6, 4, c.lift, c.zigzag);
-    const HalfEdges edges(cone.mesh);
-    ExactGeodesics geodesics(cone.mesh, edges);
+    const Surface surface = Surface::as_given(cone.mesh);
+    const HalfEdges& edges = surface.half_edges();
+    ExactGeodesics geodesics(surface);
     // A full-angle cone's rim is convex only where the line between two points of it stays inside;
     // from ring 2 every straight line does.
     for (int ring = 0; ring <= 2; ++ring)
@@ -128,9 +131,10 @@ TEST(ExactGeodesics, AnOpenPrismEqualsItsUnrolling) {
       faces.push_back({r * n + i, (r + 1) * n + j, (r + 1) * n + i});
     }
   const TriangleMesh mesh(positions, faces);
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
   const double side = 2 * std::sin(std::numbers::pi / n);
-  ExactGeodesics geodesics(mesh, edges);
+  ExactGeodesics geodesics(surface);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     geodesics.compute(vertex_point(edges, v));
     for (Index w = 0; w < mesh.vertex_count(); ++w) {
@@ -143,8 +147,9 @@ TEST(ExactGeodesics, AnOpenPrismEqualsItsUnrolling) {
 
 double sphere_error(int n) {
   const TriangleMesh mesh = make_sphere(n);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   geodesics.compute(vertex_point(edges, 0));
   double worst = 0.0;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
@@ -167,8 +172,9 @@ TEST(ExactGeodesics, TorusToTheOrderOfTheMesh) {
   double last = kInfinity;
   for (const int n : {16, 32}) {
     const TriangleMesh mesh = make_torus(3 * n, n);
-    const HalfEdges edges(mesh);
-    ExactGeodesics geodesics(mesh, edges);
+    const Surface surface = Surface::as_given(mesh);
+    const HalfEdges& edges = surface.half_edges();
+    ExactGeodesics geodesics(surface);
     geodesics.compute(vertex_point(edges, 0));
     const Vec3 source = mesh.position(0);
     ASSERT_NEAR(source.x(), kTorusMajorRadius + kTorusMinorRadius, 1e-12);
@@ -191,8 +197,9 @@ TEST(ExactGeodesics, NastyMeshesAgainstTheGraphOracle) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);
     const TriangleMesh mesh = test::nasty_mesh(random);
-    const HalfEdges edges(mesh);
-    ExactGeodesics geodesics(mesh, edges);
+    const Surface surface = Surface::as_given(mesh);
+    const HalfEdges& edges = surface.half_edges();
+    ExactGeodesics geodesics(surface);
     const SurfacePoint source = test::random_point(mesh, random);
     geodesics.compute(source);
     ASSERT_TRUE(geodesics.exact());
@@ -221,9 +228,10 @@ TEST(ExactGeodesics, NastyMeshesAgainstTheGraphOracle) {
 
 // Symmetry, triangle inequality, and paths that are as long as the distance and straight.
 void check_properties(const TriangleMesh& mesh, std::uint64_t seed, int sources, int targets) {
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
-  ExactGeodesics others(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
+  ExactGeodesics others(surface);
   Random random(seed);
   const double tolerance = 1e-10 * diagonal(mesh);
   for (int i = 0; i < sources; ++i) {
@@ -274,8 +282,9 @@ TEST(ExactGeodesics, PropertiesOnTheStudysShapes) {
 
 TEST(ExactGeodesics, TheGraphOracleComesDownToItAsPointsAreAdded) {
   const TriangleMesh mesh = make_noisy_cube(3, 0.2, true, 9);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   const SurfacePoint source{5, Vec3(0.5, 0.2, 0.3)};
   geodesics.compute(source);
   double last = kInfinity;
@@ -297,8 +306,8 @@ TEST(ExactGeodesics, TheGraphOracleComesDownToItAsPointsAreAdded) {
 
 // The same surface, moved, scaled, with vertices and faces backwards and their corners turned.
 void check_invariance(const TriangleMesh& mesh, std::uint64_t seed, double scale) {
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  ExactGeodesics geodesics(surface);
   Random random(seed);
   const SurfacePoint source = test::random_point(mesh, random);
   geodesics.compute(source);
@@ -312,8 +321,7 @@ void check_invariance(const TriangleMesh& mesh, std::uint64_t seed, double scale
   for (Index f = mesh.face_count() - 1; f >= 0; --f)
     faces.push_back({last - mesh.face(f)[1], last - mesh.face(f)[2], last - mesh.face(f)[0]});
   const TriangleMesh moved(positions, faces);
-  const HalfEdges moved_edges(moved);
-  ExactGeodesics others(moved, moved_edges);
+  ExactGeodesics others(Surface::as_given(moved));
   others.compute(
       {moved.face_count() - 1 - source.face, Vec3(source.bary[1], source.bary[2], source.bary[0])});
   for (Index v = 0; v <= last; ++v) {
@@ -345,9 +353,10 @@ TEST(ExactGeodesics, RigidMotionScaleAndNumberingChangeNothingOnTheStudysShapes)
 
 TEST(ExactGeodesics, OfSeveralSourcesTheNearestCountsFromWhereItStarts) {
   const TriangleMesh mesh = make_noisy_cube(4, 0.1, false, 6);
-  const HalfEdges edges(mesh);
-  ExactGeodesics all(mesh, edges);
-  ExactGeodesics one(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics all(surface);
+  ExactGeodesics one(surface);
   Random random(7);
   std::vector<Source> sources;
   for (int i = 0; i < 4; ++i) sources.push_back({test::random_point(mesh, random), 0.1 * i});
@@ -370,9 +379,9 @@ TEST(ExactGeodesics, OfSeveralSourcesTheNearestCountsFromWhereItStarts) {
 
 TEST(ExactGeodesics, StopsAtARadiusAndAtTargets) {
   const TriangleMesh mesh = make_torus(36, 12);
-  const HalfEdges edges(mesh);
-  ExactGeodesics full(mesh, edges);
-  ExactGeodesics stopped(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  ExactGeodesics full(surface);
+  ExactGeodesics stopped(surface);
   const SurfacePoint source{17, Vec3(0.2, 0.2, 0.6)};
   full.compute(source);
   ExactOptions radius;
@@ -396,9 +405,10 @@ TEST(ExactGeodesics, StopsAtARadiusAndAtTargets) {
 
 TEST(ExactGeodesics, GivesUpWithUpperBoundsWhenItsWorkIsBounded) {
   const TriangleMesh mesh = make_sphere(6);
-  const HalfEdges edges(mesh);
-  ExactGeodesics full(mesh, edges);
-  ExactGeodesics bounded(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics full(surface);
+  ExactGeodesics bounded(surface);
   full.compute(vertex_point(edges, 5));
   const Source one{vertex_point(edges, 5), 0.0};
   ExactOptions options;
@@ -411,9 +421,10 @@ TEST(ExactGeodesics, GivesUpWithUpperBoundsWhenItsWorkIsBounded) {
 
 TEST(ExactGeodesics, SameInputGivesTheSameBits) {
   const TriangleMesh mesh = make_noisy_cube(4, 0.2, true, 8);
-  const HalfEdges edges(mesh);
-  ExactGeodesics a(mesh, edges);
-  ExactGeodesics b(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics a(surface);
+  ExactGeodesics b(surface);
   b.compute(vertex_point(edges, 9));  // what was computed before leaves nothing behind
   a.compute(vertex_point(edges, 2));
   b.compute(vertex_point(edges, 2));
@@ -422,8 +433,8 @@ TEST(ExactGeodesics, SameInputGivesTheSameBits) {
 
 TEST(ExactGeodesics, BadInputIsNamed) {
   const TriangleMesh mesh = make_grid(2);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  ExactGeodesics geodesics(surface);
   EXPECT_THROW(geodesics.compute({99, Vec3(1, 0, 0)}), Error);
   EXPECT_THROW(geodesics.compute({-1, Vec3(1, 0, 0)}), Error);
   EXPECT_THROW(geodesics.compute({0, Vec3(0.5, 0.5, 0.5)}), Error);
@@ -445,16 +456,16 @@ TEST(ExactGeodesics, BadInputIsNamed) {
   geodesics.compute({&good, 1});
   EXPECT_THROW(geodesics.path_to(off), Error);
   EXPECT_THROW(geodesics.distance(SurfacePoint{0, Vec3(2, 0, 0)}), Error);
-  EXPECT_THROW(ExactGeodesics(mesh.with_positions(std::vector<Vec3>(mesh.positions().size(),
-                                                                    Vec3::Constant(kInfinity))),
-                              edges),
+  EXPECT_THROW(ExactGeodesics(Surface::as_given(mesh.with_positions(
+                   std::vector<Vec3>(mesh.positions().size(), Vec3::Constant(kInfinity))))),
                Error);
 }
 
 TEST(ExactGeodesics, WithoutSourcesNothingIsReachable) {
   const TriangleMesh mesh = make_two_spheres(2);
-  const HalfEdges edges(mesh);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  ExactGeodesics geodesics(surface);
   geodesics.compute(std::span<const Source>{});
   EXPECT_EQ(geodesics.distance(0), kInfinity);
   EXPECT_FALSE(geodesics.path_to(vertex_point(edges, 0)).found);
@@ -465,9 +476,9 @@ TEST(ExactGeodesics, NoPathLeadsOverAVertexThatOnlyFacesThatNameItTwiceUse) {
   const TriangleMesh mesh(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}, {1, 4, 0}, {0, 4, 0}},
       {{0, 1, 2}, {2, 3, 3}, {3, 3, 4}, {4, 5, 6}});
-  const HalfEdges edges(mesh);
-  ASSERT_LT(edges.outgoing(3), 0);
-  ExactGeodesics geodesics(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  ASSERT_LT(surface.half_edges().outgoing(3), 0);
+  ExactGeodesics geodesics(surface);
   geodesics.compute({0, Vec3(0, 0, 1)});
   const SurfacePoint target{3, Vec3::Constant(1.0 / 3.0)};
   ASSERT_LT(geodesics.distance(target), kInfinity);  // the way is there, its crossings are not
@@ -475,4 +486,4 @@ TEST(ExactGeodesics, NoPathLeadsOverAVertexThatOnlyFacesThatNameItTwiceUse) {
 }
 
 }  // namespace
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -10,20 +10,20 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exponential_map.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
+#include <mimicry/mesh/surface.h>
 
 #include "geodesic/support.h"
 #include "messy/messy_meshes.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 TEST(ExponentialMap, ExactOnAPlane) {
   const TriangleMesh mesh = make_grid(10);
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  DiscreteExponentialMap map(mesh, edges, normals);
+  DiscreteExponentialMap map(surface);
   Random random(1);
   for (int i = 0; i < 30; ++i) {
     const SurfacePoint p = test::random_point(mesh, random);
@@ -43,9 +43,9 @@ TEST(ExponentialMap, ExactOnAPlane) {
 // Largest distance between the map and exact polar coordinates on a sphere, within `radius`.
 double sphere_error(int n, double radius) {
   const TriangleMesh mesh = make_sphere(n);
-  const HalfEdges edges(mesh);
-  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  DiscreteExponentialMap map(mesh, edges, normals);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  DiscreteExponentialMap map(surface);
   Random random(2);
   double worst = 0.0;
   for (int i = 0; i < 10; ++i) {
@@ -75,9 +75,10 @@ TEST(ExponentialMap, NearExactPolarCoordinatesOnASphere) {
 
 TEST(ExponentialMap, NearTheUnrolledCylinder) {
   const TriangleMesh mesh = make_cylinder(10);
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  DiscreteExponentialMap map(mesh, edges, normals);
+  DiscreteExponentialMap map(surface);
   Index v = 0;  // on the side, half way up
   for (Index w = 0; w < mesh.vertex_count(); ++w) {
     const auto off = [&](Index u) {
@@ -106,16 +107,14 @@ TEST(ExponentialMap, NastyMeshesGiveNoNaNAndBadInputIsNamed) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
     const TriangleMesh mesh = test::nasty_mesh(random);
-    const HalfEdges edges(mesh);
-    std::vector<Vec3> normals = angle_weighted_normals(mesh);
-    DiscreteExponentialMap map(mesh, edges, normals);
+    DiscreteExponentialMap map(Surface::as_given(mesh));
     const ExponentialPatch& patch = map.compute(test::random_point(mesh, random), 2.0);
     for (const Vec2& x : patch.coordinates) ASSERT_TRUE(x.allFinite()) << "seed " << seed;
   }
   const TriangleMesh mesh = make_grid(2);
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
   const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  DiscreteExponentialMap map(mesh, edges, normals);
+  DiscreteExponentialMap map(surface);
   EXPECT_THROW(map.compute({0, Vec3(1, 1, 0)}, 1.0), Error);
   EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, 0.0), Error);
   EXPECT_THROW(map.compute({0, Vec3(1, 0, 0)}, std::nan("")), Error);
@@ -157,9 +156,9 @@ std::vector<double> ways_along_edges(const TriangleMesh& mesh, const HalfEdges& 
 
 void expect_within_bounds(const TriangleMesh& mesh, std::uint64_t seed, std::size_t& looked_at) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  const HalfEdges edges(mesh);
-  const std::vector<Vec3> normals = angle_weighted_normals(mesh);
-  DiscreteExponentialMap map(mesh, edges, normals);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  DiscreteExponentialMap map(surface);
   Random random(seed);
   for (int i = 0; i < 5; ++i) {
     const SurfacePoint p = test::random_point(mesh, random);
@@ -195,4 +194,4 @@ TEST(ExponentialMap, LengthsAreBetweenTheStraightLineAndTheWayAlongEdges) {
 }
 
 }  // namespace
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

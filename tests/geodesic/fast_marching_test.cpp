@@ -1,3 +1,5 @@
+#include "geodesic/fast_marching.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -5,10 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/geodesic/fast_marching.h>
 #include <mimicry/mesh/shapes.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 struct Errors {
@@ -136,4 +137,4 @@ TEST(FastMarching, LoweringGivesTheNearestSource) {
 }
 
 }  // namespace
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

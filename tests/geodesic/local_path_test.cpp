@@ -2,22 +2,23 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/geodesic/exact.h>
-#include <mimicry/geodesic/local_path.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "geodesic/support.h"
 #include "support/allocations.h"
 
-namespace mimicry::geodesic {
+namespace mimicry {
 namespace {
 
 void check_pairs(const TriangleMesh& mesh, std::uint64_t seed, int sources, int targets,
                  double longest, double tolerance) {
-  const HalfEdges edges(mesh);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
   // Vertices where fans touch are passed by the one search and not by the other.
   if (!edges.is_manifold()) return;
-  ExactGeodesics geodesics(mesh, edges);
-  LocalPathFinder finder(mesh, edges);
+  ExactGeodesics geodesics(surface);
+  LocalPathFinder finder(surface);
   Random random(seed);
   const double size = diagonal(mesh);
   std::vector<Crossing> crossings;
@@ -93,8 +94,9 @@ TEST(LocalPath, EqualsTheExactDistanceOnNastyMeshes) {
 
 TEST(LocalPath, PointsOfOneFaceAreJoinedByNothing) {
   const TriangleMesh mesh = make_sphere(3);
-  const HalfEdges edges(mesh);
-  LocalPathFinder finder(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  const HalfEdges& edges = surface.half_edges();
+  LocalPathFinder finder(surface);
   std::vector<Crossing> crossings;
   const LocalPath path = finder.find({5, Vec3(0.2, 0.3, 0.5)}, {5, Vec3(0.6, 0.3, 0.1)}, crossings);
   EXPECT_EQ(path.label, PathLabel::same_face);
@@ -110,9 +112,9 @@ TEST(LocalPath, PointsOfOneFaceAreJoinedByNothing) {
 TEST(LocalPath, AStraightLineOverTheSharedEdgeOfTwoFacesNeedNotBeShortest) {
   // A deep narrow valley: over its bottom edge it is farther than along the end walls.
   const TriangleMesh box = make_box(1, 1, 1, Vec3(1.0, 0.02, 0.3));
-  const HalfEdges edges(box);
-  ExactGeodesics geodesics(box, edges);
-  LocalPathFinder finder(box, edges);
+  const Surface surface = Surface::as_given(box);
+  ExactGeodesics geodesics(surface);
+  LocalPathFinder finder(surface);
   Random random(13);
   std::vector<Crossing> crossings;
   for (int i = 0; i < 300; ++i) {
@@ -126,8 +128,8 @@ TEST(LocalPath, AStraightLineOverTheSharedEdgeOfTwoFacesNeedNotBeShortest) {
 
 TEST(LocalPath, AppendsAndDoesNotAllocateAfterWarmUp) {
   const TriangleMesh mesh = make_noisy_cube(8, 0.1, true, 14);
-  const HalfEdges edges(mesh);
-  LocalPathFinder finder(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  LocalPathFinder finder(surface);
   std::vector<std::pair<SurfacePoint, SurfacePoint>> pairs;
   Random random(15);
   for (int i = 0; i < 200; ++i)
@@ -150,8 +152,8 @@ TEST(LocalPath, AppendsAndDoesNotAllocateAfterWarmUp) {
 
 TEST(LocalPath, BadInputIsNamed) {
   const TriangleMesh mesh = make_grid(2);
-  const HalfEdges edges(mesh);
-  LocalPathFinder finder(mesh, edges);
+  const Surface surface = Surface::as_given(mesh);
+  LocalPathFinder finder(surface);
   std::vector<Crossing> crossings;
   const SurfacePoint good{0, Vec3(1, 0, 0)};
   EXPECT_THROW(finder.find(good, {99, Vec3(1, 0, 0)}, crossings), Error);
@@ -160,4 +162,4 @@ TEST(LocalPath, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include <mimicry/base/random.h>
-#include <mimicry/geodesic/site.h>
-#include <mimicry/mesh/crossing.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::geodesic::test {
+#include "geodesic/site.h"
+
+namespace mimicry::test {
 
 /// A mesh of the study, nothing where the folder is absent. Vertices and faces are all that is
 /// read.
@@ -433,4 +433,4 @@ inline TriangleMesh nasty_mesh(Random& random) {
   return {positions, faces};
 }
 
-}  // namespace mimicry::geodesic::test
+}  // namespace mimicry::test

@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# c_interface.sh CMAKE SOURCE BUILD FOLDER: installs BUILD into FOLDER; libmimicry shows the functions of
+# c_interface.sh CMAKE GENERATOR SOURCE BUILD FOLDER: installs BUILD into FOLDER; libmimicry shows the functions of
 # mimicry.h and no others, and the programs of docs/c-abi.md run with it.
 set -euo pipefail
-cmake=$1 source=$2 build=$3 folder=$4
+cmake=$1 generator=$2 source=$3 build=$4 folder=$5
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+# shellcheck source=tests/install/programs.sh
+. "$here/programs.sh"
 rm -rf "$folder"
 mkdir -p "$folder"
 "$cmake" --install "$build" --prefix "$folder/prefix" >/dev/null
@@ -13,10 +16,8 @@ nm --dynamic --defined-only "$library" | awk '{print $3}' | sort >"$folder/expor
 grep -o '\bmimicry_[a-z_]*(' "$folder/prefix/include/mimicry/mimicry.h" | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported"
 
-# example LANGUAGE: the document's program in that language.
-example() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$source/docs/c-abi.md" | sed '1d;/^```$/,$d'; }
-example c >"$folder/draw.c"
-example python >"$folder/draw.py"
+program_of c "$source/docs/c-abi.md" >"$folder/draw.c"
+program_of python "$source/docs/c-abi.md" >"$folder/draw.py"
 # shellcheck disable=SC2046
 cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$folder/draw.c" \
   $(PKG_CONFIG_PATH="$pkg" pkg-config --cflags --libs mimicry-c) -Wl,-rpath,"$(dirname "$library")" -o "$folder/draw"
@@ -33,6 +34,6 @@ find_package(mimicry REQUIRED)
 add_executable(by_cmake draw.c)
 target_link_libraries(by_cmake PRIVATE mimicry::c)
 CMAKE
-"$cmake" -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" >/dev/null
+"$cmake" -S "$folder" -B "$folder/build" -G "$generator" -DCMAKE_PREFIX_PATH="$folder/prefix" >/dev/null
 "$cmake" --build "$folder/build" >/dev/null
 "$folder/build/by_cmake" | diff "$folder/c.txt" -

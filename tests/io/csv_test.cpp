@@ -1,3 +1,5 @@
+#include "io/csv.h"
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -6,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
-#include <mimicry/io/number.h>
 
-namespace mimicry::io {
+#include "io/number.h"
+
+namespace mimicry {
 namespace {
 
 using Strings = std::vector<std::string>;
@@ -63,4 +65,4 @@ TEST(Csv, ErrorsNameFileAndLine) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

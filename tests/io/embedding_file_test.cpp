@@ -7,10 +7,8 @@
 #include <mimicry/base/random.h>
 #include <mimicry/io/embedding_file.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
-
-using embedding::Embedding;
 
 Embedding example() {
   Random random(1);
@@ -121,4 +119,4 @@ TEST(EmbeddingFile, ContradictionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A glTF that a test writes by hand: JSON, and one buffer that bytes are appended to.
 struct GltfBuilder {
@@ -138,4 +138,4 @@ inline std::string said(const std::function<void()>& read) {
   return "";
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

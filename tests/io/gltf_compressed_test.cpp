@@ -12,7 +12,7 @@
 #include "io/gltf_builder.h"
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -56,6 +56,8 @@ std::string draco_bytes(const TriangleMesh& mesh, bool edgebreaker, int* points)
   builder.Start(mesh.face_count());
   const int attribute =
       builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int texcoord =
+      builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     std::array<draco::Vector3f, 3> corners;
     for (int k = 0; k < 3; ++k) {
@@ -65,6 +67,11 @@ std::string draco_bytes(const TriangleMesh& mesh, bool edgebreaker, int* points)
     }
     builder.SetAttributeValuesForFace(attribute, draco::FaceIndex(static_cast<std::uint32_t>(f)),
                                       corners[0].data(), corners[1].data(), corners[2].data());
+    const std::array<draco::Vector2f, 3> uv = {draco::Vector2f(corners[0][0], corners[0][1]),
+                                               draco::Vector2f(corners[1][0], corners[1][1]),
+                                               draco::Vector2f(corners[2][0], corners[2][1])};
+    builder.SetAttributeValuesForFace(texcoord, draco::FaceIndex(static_cast<std::uint32_t>(f)),
+                                      uv[0].data(), uv[1].data(), uv[2].data());
   }
   const auto built = builder.Finalize();
   draco::Encoder encoder;
@@ -97,6 +104,28 @@ TEST(GltfDraco, CompressedTrianglesAreRead) {
     expect_same_surface(got, grid, 1e-3);
     EXPECT_EQ(got.vertex_count(), grid.vertex_count());
   }
+}
+
+TEST(GltfDraco, CompressedTexcoordsAreKept) {
+  GltfBuilder gltf = draco_gltf(rough_grid(12, 1, true), true);
+  auto& primitive = gltf.root["meshes"][0]["primitives"][0];
+  const int texcoords =
+      gltf.accessor(std::nullopt, "VEC2", 5126, gltf.root["accessors"][0]["count"]);
+  primitive["attributes"]["TEXCOORD_0"] = texcoords;
+  auto& names = primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"];
+  names["TEXCOORD_0"] = 1;
+  const TriangleMesh mesh = gltf.read();
+  ASSERT_TRUE(mesh.attributes());
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto* uv = mesh.attributes()->texcoords.at_corner(f, k);
+      ASSERT_NE(uv, nullptr);
+      EXPECT_NEAR((*uv)[0], mesh.corner(f, k).x(), 1e-3);
+      EXPECT_NEAR(1.0f - (*uv)[1], mesh.corner(f, k).y(), 1e-3);
+    }
+  names["TEXCOORD_0"] = 7;  // which there is not
+  EXPECT_EQ(gltf.read().attributes(), nullptr);
+  EXPECT_EQ(gltf.read().face_count(), mesh.face_count());
 }
 
 TEST(GltfDraco, DamagedFormsAreRefused) {
@@ -255,4 +284,4 @@ TEST(GltfMeshopt, IsNamedWhereItIsMissing) {
 #endif
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

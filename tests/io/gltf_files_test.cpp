@@ -9,7 +9,7 @@
 
 #include "io/gltf_builder.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -262,4 +262,4 @@ TEST(GltfFiles, AnIndependentReaderCountsTheSame) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 
 #include "io/gltf_builder.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -254,4 +254,4 @@ TEST(GltfCases, SkinnedCubeIsWhereItsJointsAre) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,9 +7,9 @@
 #include <tiny_gltf.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -314,4 +314,4 @@ TEST(GltfExtensions, UnknownOnesThatCouldChangeItAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

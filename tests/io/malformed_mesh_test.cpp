@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +148,4 @@ TEST(MalformedMesh, DeeplyNestedJsonIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

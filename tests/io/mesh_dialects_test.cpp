@@ -12,15 +12,14 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/csv.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
-#include <mimicry/io/points.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/io/study.h>
 
+#include "io/csv.h"
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -434,4 +433,4 @@ TEST(RecordedCases, AreReadAsOtherReadersDo) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// A closed tetrahedron.
 inline TriangleMesh tetrahedron() {
@@ -41,4 +41,4 @@ inline double total_area(const TriangleMesh& mesh) {
   return area;
 }
 
-}  // namespace mimicry::io
+}  // namespace mimicry

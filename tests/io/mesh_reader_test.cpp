@@ -10,9 +10,9 @@
 #include <tiny_obj_loader.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAre;
@@ -272,4 +272,4 @@ TEST(MeshReader, NanAndInfinityAreReadForTheValidationToReport) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -11,12 +11,11 @@
 #include <tiny_obj_loader.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/mesh_writer.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::ElementsAreArray;
@@ -181,4 +180,4 @@ TEST(MeshWriter, TinygltfReadsGlbTheSame) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,3 +1,5 @@
+#include "io/number.h"
+
 #include <clocale>
 #include <cmath>
 #include <cstring>
@@ -7,10 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/base/float_traps.h>
-#include <mimicry/io/number.h>
+#include "base/float_traps.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 double from_bits(std::uint64_t bits) {
@@ -127,4 +128,4 @@ TEST(Number, LocalePlaysNoPart) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -9,16 +9,14 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/io/curves.h>
-#include <mimicry/io/mesh_reader.h>
+#include <mimicry/io/meshes.h>
 #include <mimicry/io/strokes.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 #include <mimicry/mesh/shapes.h>
 
 #include "support/allocations.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 // Runs `read` with ever more allocations until it has enough of them.
@@ -72,16 +70,16 @@ TEST(OutOfMemory, EveryAllocationOfAReaderMayFail) {
 
 TEST(OutOfMemory, EveryAllocationOfAWriterMayFail) {
   const TriangleMesh mesh = make_box(1, 1, 1, Vec3::Ones());
-  stroke::Stroke stroke;
+  Stroke stroke;
   stroke.id = "an identifier that is kept on the heap";
-  stroke.intended = stroke::Intention{"a", false, {{0, Vec3(1, 0, 0)}, {1, Vec3(0, 1, 0)}}};
-  stroke.simulated = stroke::Simulation{"mimicry", 1, "snap"};
+  stroke.intended = Intention{"a", false, {{0, Vec3(1, 0, 0)}, {1, Vec3(0, 1, 0)}}};
+  stroke.simulated = Simulation{"mimicry", 1, "snap"};
   CurveRecord record;
   record.stroke = stroke.id;
   record.options["a"] = {1.0, 2.0};
-  study::RecordedStroke recorded;
+  RecordedStroke recorded;
   recorded.pieces.resize(2);
-  study::TargetCurve target;
+  TargetCurve target;
   for (int i = 0; i < 20; ++i) {
     stroke.frames.emplace_back().time_s = 0.1 * i;
     record.curve.points.push_back({{0, Vec3(1, 0, 0)}, Vec3::Zero(), Vec3::UnitX(), i, 0.1 * i, 0});
@@ -90,7 +88,7 @@ TEST(OutOfMemory, EveryAllocationOfAWriterMayFail) {
     target.points.push_back({0, Vec3(1, 0, 0)});
   }
   const CurveSet curves{"box", {record, record}};
-  const study::TargetSet targets{{{"box", 1.0, {target, target}}}};
+  const TargetSet targets{{{"box", 1.0, {target, target}}}};
   EXPECT_GT(allocations_needed([&] { write_strokes(std::array{stroke, stroke}); }), 10);
   EXPECT_GT(allocations_needed([&] { write_curves_json(curves, mesh); }), 10);
   EXPECT_GT(allocations_needed([&] { write_recording(std::array{recorded, recorded}); }), 10);
@@ -109,4 +107,4 @@ TEST(OutOfMemory, TextsThatNestWithoutEndAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

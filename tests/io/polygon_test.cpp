@@ -11,12 +11,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/number.h>
+#include <mimicry/io/meshes.h>
 
 #include "io/mesh_fixtures.h"
+#include "io/number.h"
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -278,4 +278,4 @@ TEST(Polygon, FacesOfFewerThanThreeCornersAreLeftOutAndCountStill) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

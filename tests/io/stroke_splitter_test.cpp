@@ -1,3 +1,5 @@
+#include "io/stroke_splitter.h"
+
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -6,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/stroke_splitter.h>
 #include <mimicry/io/strokes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 std::vector<std::string> parts_of(const std::string& text, std::size_t most = 1 << 20) {
@@ -26,9 +27,9 @@ std::vector<std::string> parts_of(const std::string& text, std::size_t most = 1 
 }
 
 std::string file_of(int count) {
-  std::vector<stroke::Stroke> strokes;
+  std::vector<Stroke> strokes;
   for (int i = 0; i < count; ++i) {
-    stroke::Stroke s;
+    Stroke s;
     s.id = "a \\\" ] } , \"strokes\": [ " + std::to_string(i);
     s.target = "torus";
     s.frames.resize(3);
@@ -61,7 +62,7 @@ TEST(StrokeSplitter, WhatIsBrokenIsSaidByTheReader) {
   EXPECT_NO_THROW(read_strokes(parts[0], "s.json"));
   try {
     read_strokes(
-        parts[1], "s.json", [](stroke::Stroke&&) {}, 1);
+        parts[1], "s.json", [](Stroke&&) {}, 1);
     FAIL() << "it is cut off";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("s.json: stroke 1: "), std::string::npos)
@@ -77,4 +78,4 @@ TEST(StrokeSplitter, WhatIsBrokenIsSaidByTheReader) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

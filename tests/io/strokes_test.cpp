@@ -9,11 +9,9 @@
 #include <mimicry/base/error.h>
 #include <mimicry/io/strokes.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
-using stroke::Frame;
-using stroke::Stroke;
 using testing::HasSubstr;
 
 Stroke sample_stroke(unsigned seed, int frames) {
@@ -32,8 +30,7 @@ Stroke sample_stroke(unsigned seed, int frames) {
     if (i % 2 == 1) frame.pressure = 0.5 + uniform();
     stroke.frames.push_back(frame);
   }
-  stroke.intended =
-      stroke::Intention{"ring", true, {{3, Vec3(0.25, 0.5, 0.25)}, {4, Vec3(1, 0, 0)}}};
+  stroke.intended = Intention{"ring", true, {{3, Vec3(0.25, 0.5, 0.25)}, {4, Vec3(1, 0, 0)}}};
   return stroke;
 }
 
@@ -96,7 +93,7 @@ TEST(Strokes, ReadBackToTheSameBits) {
 
 TEST(Strokes, EveryConventionComesBack) {
   const Stroke written = sample_stroke(5, 10);
-  for (const auto& convention : stroke::conventions()) {
+  for (const auto& convention : conventions()) {
     SCOPED_TRACE(std::string(convention.name));
     const auto read =
         read_strokes(write_strokes(std::span(&written, 1), convention), "s.json").strokes;
@@ -252,4 +249,4 @@ TEST(Strokes, UnusableStrokeIsNotWritten) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

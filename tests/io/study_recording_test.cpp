@@ -6,16 +6,11 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
-#include <mimicry/io/study_recording.h>
-#include <mimicry/io/targets_reader.h>
-#include <mimicry/io/targets_writer.h>
+#include <mimicry/io/study.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
-using study::RecordedFrame;
-using study::RecordedPiece;
-using study::RecordedStroke;
 using testing::HasSubstr;
 
 Vec3 any(Random& random) {
@@ -120,8 +115,8 @@ TEST(StudyRecording, RefusesWhatIsNoRecording) {
   EXPECT_THAT(read_recording("[5, {}, [7]]", "x.json")[0].problem, HasSubstr("not an array"));
 }
 
-study::StudySequence sequence(const std::string& methods, const std::string& shapes,
-                              const std::string& strokes) {
+StudySequence sequence(const std::string& methods, const std::string& shapes,
+                       const std::string& strokes) {
   return read_study_sequence("{\"MethodSequence\":" + methods + ",\"ShapeSequence\":" + shapes +
                                  ",\"StrokeSequence\":" + strokes + "}",
                              "s.json");
@@ -129,7 +124,7 @@ study::StudySequence sequence(const std::string& methods, const std::string& sha
 
 TEST(StudySequence, HasOneMeaningInAllItsForms) {
   const std::vector<Index> a = {1, 0, 1, 2, 3, 2}, b = {3, 2, 3, 0, 1, 0};
-  const auto lists = [](const study::StudySequence& s) { return s.strokes; };
+  const auto lists = [](const StudySequence& s) { return s.strokes; };
   using Lists = std::vector<std::vector<Index>>;
   EXPECT_EQ(lists(sequence("[1,0]", "[4,5]", "[1,0,1,2,3,2]")), (Lists{a, a}));
   EXPECT_EQ(lists(sequence("[1,0]", "[4,5]", "[1,0,2,3]")), (Lists{a, a}));
@@ -155,14 +150,13 @@ TEST(StudySequence, RefusesWhatDoesNotFit) {
 }
 
 TEST(TargetsWriter, ReadsBackToTheSameBits) {
-  study::TargetSet set;
-  study::TargetShape shape{"pad \"x\"", 0.1 + 0.2, {}};
+  TargetSet set;
+  TargetShape shape{"pad \"x\"", 0.1 + 0.2, {}};
   shape.curves.push_back({{{3, Vec3(0.5, 0.25, 0.25)}, {0, Vec3(1, 0, 0)}}, {0, 1}, {}});
-  shape.curves.push_back(
-      {{{7, Vec3(0.125, 0.125, 0.75)}}, {}, study::TargetParameters{9, 0.1, 45}});
+  shape.curves.push_back({{{7, Vec3(0.125, 0.125, 0.75)}}, {}, TargetParameters{9, 0.1, 45}});
   set.shapes.push_back(shape);
   const std::string text = write_targets(set, "a note");
-  const study::TargetSet read = read_targets(text, "t.json");
+  const TargetSet read = read_targets(text, "t.json");
   ASSERT_EQ(read.shapes.size(), 1u);
   EXPECT_EQ(read.shapes[0].name, shape.name);
   EXPECT_EQ(read.shapes[0].scale, shape.scale);
@@ -176,4 +170,4 @@ TEST(TargetsWriter, ReadsBackToTheSameBits) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr const char* kSmall = R"({"note": "x", "shapes": [{"name": "pad", "scale": 0.4, "curves": [
@@ -34,10 +34,10 @@ std::string message(const std::string& text) {
 }
 
 TEST(Targets, ReadsShapesCurvesAndKeypoints) {
-  const study::TargetSet set = read_targets(kSmall, "t.json");
+  const TargetSet set = read_targets(kSmall, "t.json");
   ASSERT_NE(set.find("pad"), nullptr);
   EXPECT_EQ(set.find("cat"), nullptr);
-  const study::TargetShape& pad = *set.find("pad");
+  const TargetShape& pad = *set.find("pad");
   EXPECT_EQ(pad.scale, 0.4);
   ASSERT_EQ(pad.curves.size(), 2u);
   ASSERT_EQ(pad.curves[0].points.size(), 2u);
@@ -67,10 +67,10 @@ TEST(Targets, RefusalsNameFileShapeCurveAndPoint) {
 }
 
 TEST(Targets, FacesThatTheMeshHasNotAreRefused) {
-  const study::TargetSet set = read_targets(kSmall, "t.json");
+  const TargetSet set = read_targets(kSmall, "t.json");
   const TriangleMesh triangle({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}});
   try {
-    study::require_fits(set.shapes[0], triangle);
+    require_fits(set.shapes[0], triangle);
     FAIL();
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("pad: curve 0: point 1 lies on face 3"));
@@ -86,22 +86,22 @@ TEST(Targets, TheStudysFileFitsItsMeshes) {
     text << std::ifstream(path, std::ios::binary).rdbuf();
     return text.str();
   };
-  const study::TargetSet set = read_targets(bytes(folder / "targets.json"), "targets.json");
+  const TargetSet set = read_targets(bytes(folder / "targets.json"), "targets.json");
   ASSERT_EQ(set.shapes.size(), 6u);
-  for (const study::TargetShape& shape : set.shapes) {
+  for (const TargetShape& shape : set.shapes) {
     SCOPED_TRACE(shape.name);
     EXPECT_EQ(shape.curves.size(), 10u);
     const TriangleMesh mesh =
         read_mesh(bytes(folder / (shape.name + ".obj")), MeshFormat::obj, shape.name);
-    EXPECT_NO_THROW(study::require_fits(shape, mesh));
+    EXPECT_NO_THROW(require_fits(shape, mesh));
     // Of another mesh that has all the faces, too.
-    for (const study::TargetShape& other : set.shapes) {
+    for (const TargetShape& other : set.shapes) {
       if (other.name == shape.name) continue;
-      EXPECT_THROW(study::require_fits(other, mesh), Error) << other.name;
+      EXPECT_THROW(require_fits(other, mesh), Error) << other.name;
     }
     // Consecutive points are neighbours: the faces are numbered as the mesh has them. The published
     // curves have about 500 points over up to one and a half diagonals.
-    for (const study::TargetCurve& curve : shape.curves)
+    for (const TargetCurve& curve : shape.curves)
       for (std::size_t i = 1; i < curve.points.size(); ++i)
         ASSERT_LT((mesh.position(curve.points[i]) - mesh.position(curve.points[i - 1])).norm(),
                   0.05 * diagonal(mesh));
@@ -109,4 +109,4 @@ TEST(Targets, TheStudysFileFitsItsMeshes) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -1,3 +1,5 @@
+#include "io/tube_mesh.h"
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -5,11 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/io/tube_mesh.h>
 #include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::io {
+namespace mimicry {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -263,4 +264,4 @@ TEST(TubeMesh, RefusesWhatCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/mesh/normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

@@ -1,12 +1,13 @@
+#include "mesh/visible_normals.h"
+
 #include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/mesh/normals.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/mesh/visible_normals.h>
+#include <mimicry/mesh/surface.h>
 
 namespace mimicry {
 namespace {

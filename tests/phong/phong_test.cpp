@@ -10,11 +10,11 @@
 #include <mimicry/base/random.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/phong/phong_surface.h>
 
+#include "phong/phong_surface.h"
 #include "support/allocations.h"
 
-namespace mimicry::phong {
+namespace mimicry {
 namespace {
 
 // Stands in for an embedding: the mesh's own three dimensions and five that bend with them, so that
@@ -366,4 +366,4 @@ TEST(PhongSurface, QueriesAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace mimicry::phong
+}  // namespace mimicry

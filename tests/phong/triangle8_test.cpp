@@ -1,12 +1,13 @@
+#include "phong/triangle8.h"
+
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
-#include <mimicry/phong/triangle8.h>
 
-namespace mimicry::phong {
+namespace mimicry {
 namespace {
 
 Vec8 random_vec8(Random& random) {
@@ -100,4 +101,4 @@ TEST(Triangle8Pack, KeepsLittleThatIsFarther) {
 }
 
 }  // namespace
-}  // namespace mimicry::phong
+}  // namespace mimicry

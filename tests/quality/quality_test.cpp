@@ -5,15 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/files/file.h>
-
+#include "files/file.h"
 #include "quality_table.h"
 
 namespace mimicry::bench {
 namespace {
 
 TEST(Quality, NoTechniqueIsWorseThanStored) {
-  const auto stored = read_quality(files::read_file(MIMICRY_QUALITY_TABLE));
+  const auto stored = read_quality(read_file(MIMICRY_QUALITY_TABLE));
   Executor executor(2);
   const auto rows = quality_table(small_quality_shapes(), small_quality_plan(), executor);
   ASSERT_EQ(rows.size(), stored.size()) << "store a new table";

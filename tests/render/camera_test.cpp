@@ -1,9 +1,10 @@
+#include "render/camera.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/camera.h>
 
 #include "render/scenes.h"
 

@@ -2,12 +2,12 @@
 #include <png.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
-#include <mimicry/render/text.h>
 
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 #include "render/scenes.h"
+#include "render/text.h"
 
 namespace mimicry::render {
 namespace {

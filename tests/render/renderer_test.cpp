@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/base/float_traps.h>
 
+#include "base/float_traps.h"
 #include "render/scenes.h"
 
 namespace mimicry::render {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include <mimicry/render/renderer.h>
+#include "render/renderer.h"
 
 namespace mimicry::render {
 

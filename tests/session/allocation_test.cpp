@@ -6,14 +6,14 @@
 #include "support/allocations.h"
 #include "support/strokes.h"
 
-namespace mimicry::session {
+namespace mimicry {
 namespace {
 
 TEST(StrokeSession, NoFrameAllocates) {
-  const spatial::Target target(make_sphere(24));
-  const technique::Canvas canvas{&target};
-  const stroke::Stroke stroke = test::waving_stroke(600);
-  for (const auto& info : technique::techniques()) {
+  const Target target(make_sphere(24));
+  const Canvas canvas{target};
+  const Stroke stroke = test::waving_stroke(600);
+  for (const auto& info : techniques()) {
     if (info.needs_bake) continue;  // baked_test.cpp
     StrokeSession session(canvas, info);
     session.begin(stroke.model_to_world);
@@ -25,4 +25,4 @@ TEST(StrokeSession, NoFrameAllocates) {
 }
 
 }  // namespace
-}  // namespace mimicry::session
+}  // namespace mimicry

@@ -8,16 +8,14 @@
 #include "support/allocations.h"
 #include "support/strokes.h"
 
-namespace mimicry::session {
+namespace mimicry {
 namespace {
-
-using curve::ProjectedCurve;
 
 // The techniques that need a bake, in the same trials as the others.
 template <class Visit>
 void each_baked_technique(Visit&& visit) {
   int count = 0;
-  for (const auto& info : technique::techniques())
+  for (const auto& info : techniques())
     if (info.needs_bake) {
       visit(info);
       ++count;
@@ -33,9 +31,9 @@ void expect_same(const ProjectedCurve& a, const ProjectedCurve& b, double tolera
 
 TEST(BakedSession, ReplaysBitForBitAndAllocatesNothing) {
   const test::BakedTarget baked(make_sphere(8));
-  const stroke::Stroke stroke = test::waving_stroke(200);
-  each_baked_technique([&](const technique::TechniqueInfo& info) {
-    const ProjectedCurve once = project(baked.canvas(), info, stroke);
+  const Stroke stroke = test::waving_stroke(200);
+  each_baked_technique([&](const TechniqueInfo& info) {
+    const ProjectedCurve once = project(baked.canvas(), info, stroke).curve;
     EXPECT_GT(once.points.size(), 100u) << info.name;
     StrokeSession session(baked.canvas(), info);
     session.begin({});
@@ -50,24 +48,24 @@ TEST(BakedSession, ReplaysBitForBitAndAllocatesNothing) {
 
 TEST(BakedSession, CountsHowEachPointWasFound) {
   const test::BakedTarget baked(make_sphere(8));
-  StrokeSession session(baked.canvas(), technique::find_technique("snap-smooth"));
+  StrokeSession session(baked.canvas(), find_technique("snap-smooth"));
   session.begin({});
   double time_s = 0.0;
   for (const double height : {1.05, 1.02, 3.0, 1.04, 4.0}) {
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = time_s += 0.01;
     frame.controller.position = Vec3(0.1, 0.2, 1.0).normalized() * height;
     session.add(frame);
   }
-  EXPECT_EQ(session.answers()[technique::Answer::smooth], 3);
-  EXPECT_EQ(session.answers()[technique::Answer::outside_shell], 2);
+  EXPECT_EQ(session.answers()[Answer::smooth], 3);
+  EXPECT_EQ(session.answers()[Answer::outside_shell], 2);
   session.begin({});
-  EXPECT_EQ(session.answers()[technique::Answer::smooth], 0);
+  EXPECT_EQ(session.answers()[Answer::smooth], 0);
 }
 
 TEST(BakedSession, UnitsAndOriginOfTheModelDoNotMatter) {
   const TriangleMesh mesh = make_sphere(6);
-  const stroke::Stroke stroke = test::waving_stroke(100);
+  const Stroke stroke = test::waving_stroke(100);
   const test::BakedTarget reference(mesh);
   struct Place {
     double scale;
@@ -78,17 +76,17 @@ TEST(BakedSession, UnitsAndOriginOfTheModelDoNotMatter) {
     // The same bake, moved along: that a bake is the same elsewhere is the bake's affair.
     std::vector<Vec3> moved;
     for (const Vec3& x : mesh.positions()) moved.push_back(p.scale * x + p.offset);
-    const spatial::Target target(mesh.with_positions(moved));
-    embedding::Embedding e = reference.projector.embedding();
-    e.mesh_hash = embedding::content_hash(target.mesh());
+    const Target target(mesh.with_positions(moved));
+    Embedding e = reference.projector.embedding();
+    e.mesh_hash = content_hash(target.mesh());
     for (Vec3& x : e.positions) x = p.scale * x + p.offset;
     for (double& x : e.values) x *= p.scale;
-    const embedding::SmoothProjector projector(e, target);
-    stroke::Stroke placed = stroke;
+    const SmoothProjector projector(e, target);
+    Stroke placed = stroke;
     placed.model_to_world = {Quat::Identity(), -p.offset / p.scale, 1.0 / p.scale};
-    each_baked_technique([&](const technique::TechniqueInfo& info) {
-      const ProjectedCurve expected = project(reference.canvas(), info, stroke);
-      ProjectedCurve curve = project({&target, 1.0, &projector}, info, placed);
+    each_baked_technique([&](const TechniqueInfo& info) {
+      const ProjectedCurve expected = project(reference.canvas(), info, stroke).curve;
+      ProjectedCurve curve = project({target, 1.0, projector}, info, placed).curve;
       for (auto& point : curve.points) point.position = placed.model_to_world.point(point.position);
       // At 1e4 units from the origin a double resolves 2e-12, and 100 anchored steps add up.
       expect_same(expected, curve, 1e-9);
@@ -98,15 +96,23 @@ TEST(BakedSession, UnitsAndOriginOfTheModelDoNotMatter) {
 
 TEST(BakedSession, OddTargets) {
   const TriangleMesh one({Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)}, {{0, 1, 2}});
-  const stroke::Stroke stroke = test::waving_stroke(100);
-  for (const TriangleMesh& mesh : {one, make_two_spheres(4), make_grid(5)}) {
-    const test::BakedTarget baked(mesh);
-    each_baked_technique([&](const technique::TechniqueInfo& info) {
-      for (const auto& p : project(baked.canvas(), info, stroke).points)
-        ASSERT_TRUE(p.position.allFinite()) << info.name;
+  struct Placed {
+    TriangleMesh mesh;
+    Vec3 at;  // so that the stroke passes within the shell
+  };
+  for (const Placed& placed : {Placed{one, Vec3(0, 0, 1.1)}, Placed{make_grid(5), Vec3(0, 0, 1.1)},
+                               Placed{make_two_spheres(4), Vec3(-0.4, -0.3, 0.7)}}) {
+    const test::BakedTarget baked(placed.mesh);
+    Stroke stroke = test::waving_stroke(100);
+    stroke.model_to_world.translation = placed.at;
+    each_baked_technique([&](const TechniqueInfo& info) {
+      const ProjectedCurve curve = project(baked.canvas(), info, stroke).curve;
+      ASSERT_FALSE(curve.points.empty())
+          << info.name << ", " << placed.mesh.face_count() << " faces";
+      for (const auto& p : curve.points) ASSERT_TRUE(p.position.allFinite()) << info.name;
     });
   }
 }
 
 }  // namespace
-}  // namespace mimicry::session
+}  // namespace mimicry

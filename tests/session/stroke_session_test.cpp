@@ -10,12 +10,8 @@
 
 #include "support/strokes.h"
 
-namespace mimicry::session {
+namespace mimicry {
 namespace {
-
-using curve::CurvePoint;
-using curve::PieceKind;
-using curve::ProjectedCurve;
 
 bool same_bits(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
@@ -45,18 +41,18 @@ bool same(const ProjectedCurve& a, const ProjectedCurve& b) {
 }
 
 struct Sphere {
-  spatial::Target target{make_sphere(12)};
-  technique::Canvas canvas{&target};
+  Target target{make_sphere(12)};
+  Canvas canvas{target};
 };
 
 TEST(StrokeSession, ReplayIsIdenticalBitForBit) {
   const Sphere sphere;
-  const stroke::Stroke stroke = test::waving_stroke(300);
-  for (const auto& info : technique::techniques()) {
+  const Stroke stroke = test::waving_stroke(300);
+  for (const auto& info : techniques()) {
     if (info.needs_bake) continue;  // baked_test.cpp
-    const ProjectedCurve once = project(sphere.canvas, info, stroke);
+    const ProjectedCurve once = project(sphere.canvas, info, stroke).curve;
     EXPECT_GT(once.points.size(), 100u) << info.name;
-    EXPECT_TRUE(same(once, project(sphere.canvas, info, stroke))) << info.name;
+    EXPECT_TRUE(same(once, project(sphere.canvas, info, stroke).curve)) << info.name;
     // A session that has drawn something else before draws the same.
     StrokeSession session(sphere.canvas, info);
     session.begin({});
@@ -69,8 +65,8 @@ TEST(StrokeSession, ReplayIsIdenticalBitForBit) {
 
 TEST(StrokeSession, WhatIsInkedNeverChanges) {
   const Sphere sphere;
-  const stroke::Stroke stroke = test::waving_stroke(120);
-  for (const auto& info : technique::techniques()) {
+  const Stroke stroke = test::waving_stroke(120);
+  for (const auto& info : techniques()) {
     if (info.needs_bake) continue;  // baked_test.cpp
     StrokeSession session(sphere.canvas, info);
     session.begin(stroke.model_to_world);
@@ -85,8 +81,8 @@ TEST(StrokeSession, WhatIsInkedNeverChanges) {
 
 TEST(StrokeSession, PointsKnowTheirFrameTimeAndDistance) {
   const Sphere sphere;
-  const stroke::Stroke stroke = test::waving_stroke(40);
-  const ProjectedCurve curve = project(sphere.canvas, technique::find_technique("snap"), stroke);
+  const Stroke stroke = test::waving_stroke(40);
+  const ProjectedCurve curve = project(sphere.canvas, find_technique("snap"), stroke).curve;
   ASSERT_EQ(curve.points.size(), 40u);
   for (std::size_t i = 0; i < 40; ++i) {
     const CurvePoint& p = curve.points[i];
@@ -101,27 +97,27 @@ TEST(StrokeSession, PointsKnowTheirFrameTimeAndDistance) {
 
 TEST(StrokeSession, MissesConnectOrSplit) {
   const Sphere sphere;
-  stroke::Stroke stroke = test::waving_stroke(30);
+  Stroke stroke = test::waving_stroke(30);
   for (std::size_t i = 10; i < 15; ++i)
     stroke.frames[i].controller.orientation = Quat(Eigen::AngleAxisd(3.1, Vec3::UnitY()));
-  const auto& spray = technique::find_technique("spraycan");
-  const ProjectedCurve connected = project(sphere.canvas, spray, stroke);
+  const auto& spray = find_technique("spraycan");
+  const ProjectedCurve connected = project(sphere.canvas, spray, stroke).curve;
   EXPECT_EQ(connected.points.size(), 25u);
   for (const auto& piece : connected.pieces) EXPECT_NE(piece.kind, PieceKind::gap);
   SessionOptions options;
   options.misses = MissPolicy::split;
-  const ProjectedCurve split = project(sphere.canvas, spray, stroke, options);
+  const ProjectedCurve split = project(sphere.canvas, spray, stroke, options).curve;
   EXPECT_EQ(split.points.size(), 25u);
   for (std::size_t i = 0; i < split.pieces.size(); ++i)
     EXPECT_EQ(split.pieces[i].kind == PieceKind::gap, i == 9) << i;
-  EXPECT_EQ(curve::polylines(split, sphere.target.mesh()).size(), 2u);
+  EXPECT_EQ(polylines(split, sphere.target.mesh()).size(), 2u);
 }
 
 TEST(StrokeSession, StillFramesArePassedOver) {
   const Sphere sphere;
   SessionOptions options;
   options.minimum_motion_m = 0.02;
-  StrokeSession session(sphere.canvas, technique::find_technique("snap"), options);
+  StrokeSession session(sphere.canvas, find_technique("snap"), options);
   session.begin({});
   Vec3 last = Vec3::Constant(1e9);
   for (const auto& frame : test::waving_stroke(90).frames) {
@@ -135,15 +131,15 @@ TEST(StrokeSession, StillFramesArePassedOver) {
 
 TEST(StrokeSession, UnusableFramesAreRejectedAndTheStrokeGoesOn) {
   const Sphere sphere;
-  const stroke::Stroke stroke = test::waving_stroke(10);
-  StrokeSession session(sphere.canvas, technique::find_technique("anchored-closest"));
+  const Stroke stroke = test::waving_stroke(10);
+  StrokeSession session(sphere.canvas, find_technique("anchored-closest"));
   EXPECT_EQ(session.add(stroke.frames[0]), FrameStatus::rejected) << "before begin";
   session.begin({});
   EXPECT_EQ(session.add(stroke.frames[0]), FrameStatus::inked);
-  stroke::Frame lost = stroke.frames[1];
+  Frame lost = stroke.frames[1];
   lost.controller.position.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(session.add(lost), FrameStatus::rejected);
-  stroke::Frame earlier = stroke.frames[1];
+  Frame earlier = stroke.frames[1];
   earlier.time_s = -1;
   EXPECT_EQ(session.add(earlier), FrameStatus::rejected);
   EXPECT_EQ(session.add(stroke.frames[2]), FrameStatus::inked);
@@ -154,10 +150,10 @@ TEST(StrokeSession, UnusableFramesAreRejectedAndTheStrokeGoesOn) {
 
 TEST(StrokeSession, StrokesOfNoAndOneFrame) {
   const Sphere sphere;
-  for (const auto& info : technique::techniques()) {
+  for (const auto& info : techniques()) {
     if (info.needs_bake) continue;  // baked_test.cpp
-    EXPECT_TRUE(project(sphere.canvas, info, test::waving_stroke(0)).points.empty());
-    const ProjectedCurve one = project(sphere.canvas, info, test::waving_stroke(1));
+    EXPECT_TRUE(project(sphere.canvas, info, test::waving_stroke(0)).curve.points.empty());
+    const ProjectedCurve one = project(sphere.canvas, info, test::waving_stroke(1)).curve;
     EXPECT_EQ(one.points.size(), 1u) << info.name;
     EXPECT_TRUE(one.pieces.empty());
   }
@@ -165,37 +161,39 @@ TEST(StrokeSession, StrokesOfNoAndOneFrame) {
 
 TEST(StrokeSession, RecordedStrokeThatIsNotUsableThrows) {
   const Sphere sphere;
-  stroke::Stroke stroke = test::waving_stroke(5);
+  Stroke stroke = test::waving_stroke(5);
   stroke.frames[3].time_s = -1;
-  EXPECT_THROW(project(sphere.canvas, technique::find_technique("snap"), stroke), Error);
+  EXPECT_THROW(project(sphere.canvas, find_technique("snap"), stroke).curve, Error);
 }
 
 // A hand in space dips its pen into the object from the first frame to the last.
 TEST(StrokeSession, ADippedStrokeStaysOnTheSideThatItWentInto) {
   const Sphere sphere;
-  stroke::Stroke stroke;
+  Stroke stroke;
   for (int i = 0; i < 40; ++i) {
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = i / 90.0;
     frame.head.position = Vec3(0.0, 0.0, 3.0);
     frame.controller.position = Vec3(0.01 * (i - 20), 0.02 * std::sin(0.3 * i), 0.9);
     stroke.frames.push_back(frame);
   }
-  SessionOptions dipped;
-  dipped.technique.dipped_pen = 1.0;
   int looked_at = 0;
-  for (const auto& info : technique::techniques()) {
+  for (const auto& info : techniques()) {
     if (info.needs_bake) continue;
-    const ProjectedCurve curve = project(sphere.canvas, info, stroke, dipped);
+    SessionOptions dipped;
+    const double on = 1.0;
+    for (const OptionInfo& option : info.options)
+      if (option.name == "dipped-pen") set_option(info, dipped.technique, option.name, {&on, 1});
+    const ProjectedCurve curve = project(sphere.canvas, info, stroke, dipped).curve;
     ASSERT_GT(curve.points.size(), 20u) << info.name;
     for (const CurvePoint& point : curve.points) ASSERT_GT(point.position.z(), 0.5) << info.name;
     ++looked_at;
   }
   EXPECT_EQ(looked_at, 9);
   // The paper's rays go on to the far side.
-  const auto far = project(sphere.canvas, technique::find_technique("spraycan"), stroke);
+  const auto far = project(sphere.canvas, find_technique("spraycan"), stroke).curve;
   for (const CurvePoint& point : far.points) EXPECT_LT(point.position.z(), -0.5);
 }
 
 }  // namespace
-}  // namespace mimicry::session
+}  // namespace mimicry

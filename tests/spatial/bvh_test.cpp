@@ -1,3 +1,5 @@
+#include "spatial/bvh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,19 +10,18 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/spatial/brute_force.h>
-#include <mimicry/spatial/bvh.h>
-#include <mimicry/spatial/surface_search.h>
 
+#include "spatial/brute_force.h"
 #include "spatial/meshes.h"
+#include "spatial/surface_search.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
-using testing::Random;
-using testing::uniform;
-using testing::uniform_vector;
-using testing::unit_vector;
+using test::Random;
+using test::uniform;
+using test::uniform_vector;
+using test::unit_vector;
 
 struct Named {
   std::string name;
@@ -32,10 +33,10 @@ std::vector<Named> meshes() {
   std::vector<Named> result;
   result.push_back({"torus", make_torus(40, 20, 1.0, 0.4)});
   result.push_back({"cube", make_box(6, 6, 6, Vec3::Ones())});
-  result.push_back({"soup", testing::soup(random, 500)});
-  result.push_back({"two parts", testing::joined(make_box(3, 3, 3, Vec3::Ones()),
-                                                 testing::transformed(make_torus(20, 9, 1.0, 0.4),
-                                                                      0.3, Vec3(4, 0, 0)))});
+  result.push_back({"soup", test::soup(random, 500)});
+  result.push_back({"two parts", test::joined(make_box(3, 3, 3, Vec3::Ones()),
+                                              test::transformed(make_torus(20, 9, 1.0, 0.4), 0.3,
+                                                                Vec3(4, 0, 0)))});
   result.push_back({"one triangle", {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}}});
   // Every centre is the same: nothing to split by.
   std::vector<Vec3> corners;
@@ -67,7 +68,7 @@ struct Both {
     brute = {mesh.face_count(), get()};
   }
   std::function<Triangle(Index)> get() const {
-    return [this](Index f) { return testing::triangle_of(mesh, f); };
+    return [this](Index f) { return test::triangle_of(mesh, f); };
   }
 
   void expect_same(const Vec3& y, double bound2, Index hint, const std::string& where) const {
@@ -125,8 +126,7 @@ TEST(Bvh, ClosestPointEqualsBruteForce) {
   for (const Named& named : meshes())
     for (const double scale : {1.0, 1e-6, 1e6})
       for (const double offset : {0.0, 1e4}) {
-        const Both both(
-            testing::transformed(named.mesh, scale, scale * offset * Vec3(1, -0.7, 0.3)));
+        const Both both(test::transformed(named.mesh, scale, scale * offset * Vec3(1, -0.7, 0.3)));
         Random random(11);
         const std::string where = named.name + " scale " + std::to_string(scale);
         for (int i = 0; i < 150; ++i)
@@ -160,8 +160,7 @@ TEST(Bvh, RaysEqualBruteForce) {
   for (const Named& named : meshes())
     for (const double scale : {1.0, 1e-6, 1e6})
       for (const double offset : {0.0, 1e4}) {
-        const Both both(
-            testing::transformed(named.mesh, scale, scale * offset * Vec3(1, -0.7, 0.3)));
+        const Both both(test::transformed(named.mesh, scale, scale * offset * Vec3(1, -0.7, 0.3)));
         Random random(13);
         const std::string where = named.name + " scale " + std::to_string(scale);
         for (int i = 0; i < 150; ++i) {
@@ -179,8 +178,7 @@ TEST(Bvh, RaysEqualBruteForce) {
 
 TEST(Bvh, RefitAnswersAsARebuildDoes) {
   const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
-  Bvh<3, Triangle> refitted(mesh.face_count(),
-                            [&](Index f) { return testing::triangle_of(mesh, f); });
+  Bvh<3, Triangle> refitted(mesh.face_count(), [&](Index f) { return test::triangle_of(mesh, f); });
   Random random(14);
   std::vector<Vec3> moved(mesh.positions().begin(), mesh.positions().end());
   for (Vec3& p : moved) p = 3.0 * p + Vec3(5, 6, 7) + uniform_vector(random, 0.2);
@@ -311,4 +309,4 @@ TEST(Bvh, EmptyFindsNothing) {
 }
 
 }  // namespace
-}  // namespace mimicry::spatial
+}  // namespace mimicry

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include <mimicry/mesh/triangle_mesh.h>
-#include <mimicry/spatial/triangle.h>
+
+#include "spatial/triangle.h"
 
 // Meshes that searches find hard.
-namespace mimicry::spatial::testing {
+namespace mimicry::test {
 
 using Random = std::mt19937_64;
 
@@ -64,4 +65,4 @@ inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
   return {positions, faces};
 }
 
-}  // namespace mimicry::spatial::testing
+}  // namespace mimicry::test

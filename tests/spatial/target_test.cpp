@@ -13,13 +13,13 @@
 #include "spatial/meshes.h"
 #include "support/allocations.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
 using mimicry::test::allocation_count;
+using test::Random;
+using test::uniform_vector;
 using ::testing::HasSubstr;
-using testing::Random;
-using testing::uniform_vector;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -116,14 +116,14 @@ TEST(Target, ScaleAndPlaceDoNotMatter) {
   Random random(41);
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const Vec3 offset = scale == 1.0 ? Vec3(1e4, -1e4, 5e3) : Vec3::Zero();
-    const Target other(testing::transformed(mesh, scale, offset));
+    const Target other(test::transformed(mesh, scale, offset));
     // What the coordinates themselves lose 1e4 units away.
     const double tolerance = scale == 1.0 ? 1e-11 : 1e-14;
     for (int i = 0; i < 300; ++i) {
       const Vec3 y = uniform_vector(random, 2.0);
       const auto a = target.closest_point(y), b = other.closest_point(scale * y + offset);
       EXPECT_NEAR(a->distance, b->distance / scale, tolerance);
-      const Vec3 d = testing::unit_vector(random);
+      const Vec3 d = test::unit_vector(random);
       const auto h = target.first_hit(y, d), g = other.first_hit(scale * y + offset, d);
       ASSERT_EQ(h.has_value(), g.has_value());
       if (h) {
@@ -216,7 +216,7 @@ TEST(Target, MovedSeamsStayClosed) {
 TEST(Target, MovedPositionsAnswerAsANewTarget) {
   const TriangleMesh mesh = make_torus(40, 20, 1.0, 0.4);
   Target moved(mesh);
-  const TriangleMesh shape = testing::transformed(mesh, 0.01, Vec3(3, 4, 5));
+  const TriangleMesh shape = test::transformed(mesh, 0.01, Vec3(3, 4, 5));
   const long before = allocation_count();
   moved.update_positions(shape.positions());
   EXPECT_EQ(allocation_count(), before);
@@ -274,4 +274,4 @@ TEST(Target, HoldsUnder200BytesAFace) {
 }
 
 }  // namespace
-}  // namespace mimicry::spatial
+}  // namespace mimicry

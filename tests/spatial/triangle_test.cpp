@@ -1,18 +1,18 @@
+#include "spatial/triangle.h"
+
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <mimicry/spatial/triangle.h>
-
 #include "spatial/meshes.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
-using testing::Random;
-using testing::uniform;
-using testing::uniform_vector;
+using test::Random;
+using test::uniform;
+using test::uniform_vector;
 
 Vec3 at(const Triangle& t, const Vec3& bary) {
   return bary[0] * t.a + bary[1] * t.b + bary[2] * t.c;
@@ -163,4 +163,4 @@ TEST(TrianglePack, NeverDropsWhatTheExactTestsAccept) {
 }
 
 }  // namespace
-}  // namespace mimicry::spatial
+}  // namespace mimicry

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/spatial/bvh.h>
-#include <mimicry/spatial/surface_search.h>
 
+#include "spatial/bvh.h"
 #include "spatial/meshes.h"
+#include "spatial/surface_search.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr int kRays = 1'000'000;
@@ -23,16 +23,15 @@ constexpr int kRays = 40'000;
 // Rays from inside a closed mesh at its vertices and at points of its edges.
 int escapes(const TriangleMesh& mesh, const Vec3& inside, double spread, std::uint64_t seed) {
   const Bvh<3, Triangle> bvh(mesh.face_count(),
-                             [&](Index f) { return testing::triangle_of(mesh, f); });
+                             [&](Index f) { return test::triangle_of(mesh, f); });
   Random random(seed);
   int escaped = 0;
   for (int i = 0; i < kRays; ++i) {
     const auto f = static_cast<Index>(random() % static_cast<std::uint64_t>(mesh.face_count()));
     const int k = static_cast<int>(random() % 3);
-    const double t = random() % 3 == 0 ? 0.0 : testing::uniform(random, 0.0, 1.0);
+    const double t = random() % 3 == 0 ? 0.0 : test::uniform(random, 0.0, 1.0);
     const Vec3 aim = mesh.corner(f, k) + t * (mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k));
-    const Vec3 origin =
-        i % 4 == 0 ? inside : Vec3(inside + testing::uniform_vector(random, spread));
+    const Vec3 origin = i % 4 == 0 ? inside : Vec3(inside + test::uniform_vector(random, spread));
     const Vec3 direction = (aim - origin).normalized();
     if (first_on_ray(bvh, Ray(origin, direction)).surface.face == kNone) ++escaped;
   }
@@ -50,10 +49,10 @@ TEST(Watertight, NoRayEscapesFromACubeWithGridLinesInLineWithTheOrigin) {
 
 TEST(Watertight, NoRayEscapesFromATinyOrShiftedMesh) {
   const Vec3 offset(1e4, -7e3, 3e3);
-  EXPECT_EQ(escapes(testing::transformed(make_torus(30, 12, 1.0, 0.4), 1.0, offset),
+  EXPECT_EQ(escapes(test::transformed(make_torus(30, 12, 1.0, 0.4), 1.0, offset),
                     Vec3(1.0, 0.0, 0.0) + offset, 0.1, 23),
             0);
-  EXPECT_EQ(escapes(testing::transformed(make_torus(30, 12, 1.0, 0.4), 1e-6, Vec3::Zero()),
+  EXPECT_EQ(escapes(test::transformed(make_torus(30, 12, 1.0, 0.4), 1e-6, Vec3::Zero()),
                     Vec3(1e-6, 0.0, 0.0), 1e-7, 24),
             0);
 }
@@ -67,7 +66,7 @@ TEST(Watertight, NoRayEscapesThroughNeedlesAndFlatFaces) {
   constexpr Index kSides = 60;
   for (Index i = 0; i < kSides; ++i) {
     const double a = 2.0 * std::numbers::pi * i / kSides;
-    const double gap = i % 3 == 0 ? 0.0 : 1e-7 * testing::uniform(random, 0.5, 1.0);
+    const double gap = i % 3 == 0 ? 0.0 : 1e-7 * test::uniform(random, 0.5, 1.0);
     p.emplace_back(std::cos(a), std::sin(a), gap);
     p.emplace_back(std::cos(a), std::sin(a), -gap);
   }
@@ -79,4 +78,4 @@ TEST(Watertight, NoRayEscapesThroughNeedlesAndFlatFaces) {
 }
 
 }  // namespace
-}  // namespace mimicry::spatial
+}  // namespace mimicry

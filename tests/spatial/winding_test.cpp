@@ -1,15 +1,16 @@
+#include "spatial/winding.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <mimicry/base/random.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/spatial/pseudonormal.h>
-#include <mimicry/spatial/winding.h>
 
+#include "spatial/pseudonormal.h"
 #include "support/allocations.h"
 
-namespace mimicry::spatial {
+namespace mimicry {
 namespace {
 
 Vec3 normal_vector(mimicry::Random& random) {
@@ -104,4 +105,4 @@ TEST(SignedDistance, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace mimicry::spatial
+}  // namespace mimicry

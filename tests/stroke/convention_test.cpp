@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/stroke/convention.h>
+#include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 namespace {
 
 // acos resolves angles near 0 to the square root of rounding only: compare with 1e-7.
@@ -89,4 +89,4 @@ TEST(CoordinateConvention, UnknownNameIsNull) {
 }
 
 }  // namespace
-}  // namespace mimicry::stroke
+}  // namespace mimicry

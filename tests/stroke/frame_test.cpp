@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/stroke/frame.h>
 #include <mimicry/stroke/stroke.h>
 
-namespace mimicry::stroke {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -73,4 +72,4 @@ TEST(Stroke, PlacementThatIsNoSimilarityIsRefused) {
 }
 
 }  // namespace
-}  // namespace mimicry::stroke
+}  // namespace mimicry

@@ -5,22 +5,22 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
-spatial::Target target_of(std::string_view shape, const ShapeOptions& options = {}) {
-  return spatial::Target(make_shape(shape, options));
+Target target_of(std::string_view shape, const ShapeOptions& options = {}) {
+  return Target(make_shape(shape, options));
 }
 
 TEST(IntendedCurves, ThreeOnEveryShapeOnItsSurfaceAndWithoutJumps) {
   for (const ShapeInfo& info : builtin_shapes()) {
-    const spatial::Target target = target_of(info.name);
+    const Target target = target_of(info.name);
     const auto curves = intended_curves(info.name, target);
     ASSERT_GE(curves.size(), 3u) << info.name;
     int closed = 0;
-    for (const stroke::Intention& curve : curves) {
+    for (const Intention& curve : curves) {
       SCOPED_TRACE(std::string(info.name) + " " + curve.name);
       ASSERT_GE(curve.points.size(), 40u);
       closed += curve.closed;
@@ -55,7 +55,7 @@ TEST(IntendedCurves, ThreeOnEveryShapeOnItsSurfaceAndWithoutJumps) {
 TEST(IntendedCurves, AcrossTurnsOverSharpEdges) {
   // Face normals along the curve that differ by 90 degrees within a step or two.
   for (const auto& [shape, turns] : {std::pair{"cube", 2}, {"plate", 2}, {"cylinder", 2}}) {
-    const spatial::Target target = target_of(shape);
+    const Target target = target_of(shape);
     const auto curves = intended_curves(shape, target);
     int found = 0;
     Vec3 previous = Vec3::Zero();
@@ -70,8 +70,8 @@ TEST(IntendedCurves, AcrossTurnsOverSharpEdges) {
 
 TEST(IntendedCurves, DoNotDependOnResolution) {
   for (const char* shape : {"sphere", "torus", "hand"}) {
-    const spatial::Target coarse = target_of(shape, {.resolution = shape[0] == 'h' ? 2 : 24});
-    const spatial::Target fine = target_of(shape, {.resolution = shape[0] == 'h' ? 3 : 48});
+    const Target coarse = target_of(shape, {.resolution = shape[0] == 'h' ? 2 : 24});
+    const Target fine = target_of(shape, {.resolution = shape[0] == 'h' ? 3 : 48});
     const auto a = intended_curves(shape, coarse), b = intended_curves(shape, fine);
     for (std::size_t c = 0; c < a.size(); ++c)
       for (const SurfacePoint& p : a[c].points) {
@@ -85,18 +85,18 @@ TEST(IntendedCurves, DoNotDependOnResolution) {
 }
 
 TEST(IntendedCurves, FollowTheNoisyCubesFaces) {
-  const spatial::Target noisy = target_of("noisy-cube", {.resolution = 10, .noise = 0.2});
-  const spatial::Target cube = target_of("cube", {.resolution = 10});
+  const Target noisy = target_of("noisy-cube", {.resolution = 10, .noise = 0.2});
+  const Target cube = target_of("cube", {.resolution = 10});
   const auto a = intended_curves("noisy-cube", noisy), b = intended_curves("cube", cube);
   ASSERT_EQ(a[1].points.size(), b[1].points.size());
   EXPECT_EQ(a[1].points[17].face, b[1].points[17].face);
 }
 
 TEST(IntendedCurves, RefuseUnknownShapesAndForeignMeshes) {
-  const spatial::Target sphere = target_of("sphere");
+  const Target sphere = target_of("sphere");
   EXPECT_THROW(intended_curves("teapot", sphere), Error);
   EXPECT_THROW(intended_curves("noisy-cube", sphere), Error);
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

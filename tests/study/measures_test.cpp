@@ -6,29 +6,29 @@
 #include <gtest/gtest.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/curve/curve_builder.h>
-#include <mimicry/geodesic/straightest.h>
+#include <mimicry/geodesic/paths.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
-#include <mimicry/study/consistency.h>
-#include <mimicry/study/frame_rate.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/polyline.h>
+#include <mimicry/study/recording.h>
 
-namespace mimicry::study {
+#include "curve/curve_builder.h"
+#include "study/polyline.h"
+
+namespace mimicry {
 namespace {
 
 using std::numbers::pi;
 
 // A drawing on a target: the curve, and a hand that moves with it.
 struct Drawing {
-  curve::ProjectedCurve curve;
+  ProjectedCurve curve;
   std::vector<MotionSample> motion;
 };
 
-Drawing draw(const spatial::Target& target, std::span<const SurfacePoint> points, double scale,
+Drawing draw(const Target& target, std::span<const SurfacePoint> points, double scale,
              const Vec3& offset = Vec3::Zero()) {
-  curve::CurveBuilder builder(target.mesh(), target.half_edges());
+  CurveBuilder builder(target.surface());
   Drawing drawing;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double t = 0.01 * static_cast<double>(i);
@@ -43,16 +43,16 @@ Drawing draw(const spatial::Target& target, std::span<const SurfacePoint> points
   return drawing;
 }
 
-std::vector<SurfacePoint> on(const spatial::Target& target, std::span<const Vec3> positions) {
+std::vector<SurfacePoint> on(const Target& target, std::span<const Vec3> positions) {
   std::vector<SurfacePoint> points;
   for (const Vec3& x : positions) points.push_back(target.closest_point(x)->surface);
   return points;
 }
 
-Measures measure_on(const spatial::Target& target, const TargetCurve& intended,
-                    const Drawing& drawing, double scale) {
-  return measure(target.mesh(), target.half_edges(), intended_curve(target.mesh(), intended, scale),
-                 drawing.curve, drawing.motion);
+Measures measure_on(const Target& target, const TargetCurve& intended, const Drawing& drawing,
+                    double scale) {
+  return measure(target.surface(), intended_curve(target.mesh(), intended, scale), drawing.curve,
+                 drawing.motion);
 }
 
 // A circle of latitude around z on a sphere of radius 1.
@@ -67,7 +67,7 @@ std::vector<Vec3> latitude(double polar, int count) {
 }
 
 TEST(Measures, ACircleOnASphereHasItsGeodesicCurvature) {
-  const spatial::Target sphere(make_sphere(48));
+  const Target sphere(make_sphere(48));
   const double polar = 0.6, scale = 0.3;
   const std::vector<SurfacePoint> points = on(sphere, latitude(polar, 60));
   const Measures m = measure_on(sphere, {points, {}, {}}, draw(sphere, points, scale), scale);
@@ -81,14 +81,13 @@ TEST(Measures, ACircleOnASphereHasItsGeodesicCurvature) {
 }
 
 TEST(Measures, AStraightestGeodesicHasNone) {
-  const spatial::Target torus(make_torus(48, 20));
+  const Target torus(make_torus(48, 20));
   std::vector<SurfacePoint> points;
   SurfacePoint p{100, {0.4, 0.35, 0.25}};
   Vec3 direction = torus.mesh().corner(100, 1) - torus.mesh().corner(100, 0);
   for (int i = 0; i < 40; ++i) {
     points.push_back(p);
-    const auto trace =
-        geodesic::trace_straightest(torus.mesh(), torus.half_edges(), p, direction, 0.03);
+    const auto trace = trace_straightest(torus.surface(), p, direction, 0.03);
     p = trace.end;
     direction = trace.direction;
   }
@@ -100,7 +99,7 @@ TEST(Measures, AStraightestGeodesicHasNone) {
 }
 
 TEST(Measures, ATranslatedCopyOfTheTargetIsMeasuredAsOne) {
-  const spatial::Target grid(make_grid(20));
+  const Target grid(make_grid(20));
   std::vector<Vec3> wave;
   for (int i = 0; i <= 200; ++i)
     wave.push_back(Vec3(-0.8 + 0.008 * i, 0.3 * std::sin(0.05 * i), 0.0));
@@ -120,7 +119,7 @@ TEST(Measures, ATranslatedCopyOfTheTargetIsMeasuredAsOne) {
 }
 
 TEST(Measures, AShiftedCurveIsItsShiftAway) {
-  const spatial::Target grid(make_grid(20));
+  const Target grid(make_grid(20));
   const std::vector<Vec3> line = {Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)};
   const std::vector<Vec3> shifted = {Vec3(-0.5, 0.1, 0), Vec3(0, 0.1, 0), Vec3(0.5, 0.1, 0)};
   const Measures m =
@@ -129,7 +128,7 @@ TEST(Measures, AShiftedCurveIsItsShiftAway) {
 }
 
 TEST(Measures, ARightAngleCountsOnceInK_gAndTwiceInF_g) {
-  const spatial::Target grid(make_grid(10));
+  const Target grid(make_grid(10));
   const std::vector<Vec3> corner = {Vec3(-0.5, 0.03, 0), Vec3(0.05, 0.03, 0), Vec3(0.05, 0.6, 0)};
   const std::vector<SurfacePoint> points = on(grid, corner);
   const Measures m = measure_on(grid, {points, {}, {}}, draw(grid, points, 1.0), 1.0);
@@ -140,20 +139,19 @@ TEST(Measures, ARightAngleCountsOnceInK_gAndTwiceInF_g) {
 }
 
 TEST(Measures, GapsAreJoinedOrLeftOut) {
-  const spatial::Target grid(make_grid(10));
+  const Target grid(make_grid(10));
   const std::vector<Vec3> corner = {Vec3(-0.5, 0.03, 0), Vec3(-0.1, 0.03, 0), Vec3(0.05, 0.03, 0),
                                     Vec3(0.05, 0.6, 0)};
   const std::vector<SurfacePoint> points = on(grid, corner);
   Drawing drawing = draw(grid, points, 1.0);
-  curve::CurveBuilder builder(grid.mesh(), grid.half_edges());
+  CurveBuilder builder(grid.surface());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i == 3) builder.break_here();
     builder.append(drawing.curve.points[i]);
   }
   const IntendedCurve intended = intended_curve(grid.mesh(), {points, {}, {}}, 1.0);
   const auto with = [&](bool join) {
-    return measure(grid.mesh(), grid.half_edges(), intended, builder.curve(), drawing.motion,
-                   {join});
+    return measure(grid.surface(), intended, builder.curve(), drawing.motion, {join});
   };
   EXPECT_NEAR(with(true).k_g_rad_per_m * intended.length_m, pi / 2.0, 1e-9);
   EXPECT_LT(with(false).k_g_rad_per_m, 1e-9);
@@ -162,7 +160,7 @@ TEST(Measures, GapsAreJoinedOrLeftOut) {
 }
 
 TEST(Measures, FiltersAndJumps) {
-  const spatial::Target grid(make_grid(20));
+  const Target grid(make_grid(20));
   std::vector<Vec3> line, back, half;
   for (int i = 0; i <= 40; ++i) line.push_back(Vec3(-0.8 + 0.04 * i, 0.1, 0.0));
   back.assign(line.rbegin(), line.rend());
@@ -186,7 +184,7 @@ TEST(Measures, FiltersAndJumps) {
 }
 
 TEST(Measures, RefuseWhatCannotBeMeasured) {
-  const spatial::Target grid(make_grid(4));
+  const Target grid(make_grid(4));
   const std::vector<SurfacePoint> points = on(grid, std::vector<Vec3>{{0, 0, 0}, {0.5, 0, 0}});
   const auto message = [&](const Drawing& drawing, const TargetCurve& intended) -> std::string {
     try {
@@ -284,14 +282,14 @@ TEST(Consistency, IsTheMeanChangeWithoutOutliers) {
 }
 
 TEST(FrameRate, AProjectionOfSinglePointsDependsOnItByTheChordsOnly) {
-  stroke::Stroke stroke;
+  Stroke stroke;
   for (int i = 0; i <= 90; ++i) {
-    stroke::Frame frame;
+    Frame frame;
     frame.time_s = i / 90.0;
     frame.controller.position = Vec3(std::cos(0.02 * i), std::sin(0.02 * i), 0.0);
     stroke.frames.push_back(frame);
   }
-  const ProjectFunction pen = [](const stroke::Stroke& s) {
+  const ProjectFunction pen = [](const Stroke& s) {
     std::vector<Vec3> points;
     for (const auto& f : s.frames) points.push_back(f.controller.position);
     return points;
@@ -301,7 +299,7 @@ TEST(FrameRate, AProjectionOfSinglePointsDependsOnItByTheChordsOnly) {
   EXPECT_GT(off, 0.0);
   EXPECT_LT(off, 0.06 * 0.06 / 8.0);  // the sagitta of the longest chord
   // One that walks a fixed way for each frame loses all that is thinned out.
-  const ProjectFunction counter = [](const stroke::Stroke& s) {
+  const ProjectFunction counter = [](const Stroke& s) {
     return std::vector<Vec3>{Vec3::Zero(),
                              Vec3(0.001 * static_cast<double>(s.frames.size()), 0, 0)};
   };
@@ -336,4 +334,4 @@ TEST(Inversions, CountPairsInTheWrongOrder) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

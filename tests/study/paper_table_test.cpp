@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/study/paper_table.h>
+#include <mimicry/study/comparison.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 constexpr PaperFigure kDifferent = {2.0, 1, 4.0, 1, -5, "<.001", true};
@@ -73,4 +73,4 @@ TEST(Agreement, NothingAgreesWithoutPairs) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

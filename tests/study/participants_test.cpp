@@ -8,10 +8,10 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
-#include <mimicry/study/participants.h>
+#include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 TEST(Participants, SequenceIsThePapersProtocol) {
@@ -81,8 +81,8 @@ TEST(Participants, PeopleDifferAndStayThemselves) {
 }
 
 struct ClosedLoopScene {
-  spatial::Target target{make_shape("torus", {.resolution = 24})};
-  stroke::Intention curve = intended_curves("torus", target)[1];
+  Target target{make_shape("torus", {.resolution = 24})};
+  Intention curve = intended_curves("torus", target)[1];
   Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), find_shape("torus")->metres_per_unit};
 };
 
@@ -90,7 +90,7 @@ TEST(Participants, RecalledCurvesMeetTheirKeypoints) {
   const ClosedLoopScene s;
   const auto count = static_cast<Index>(s.curve.points.size());
   const std::vector<Index> keypoints = {0, count / 3, count / 2, count - 1};
-  const stroke::Intention meant = recalled(s.target, s.curve, keypoints, 0.02, 5);
+  const Intention meant = recalled(s.target, s.curve, keypoints, 0.02, 5);
   const auto off = [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     return (s.target.position(meant.points[k]) - s.target.position(s.curve.points[k])).norm();
@@ -112,22 +112,22 @@ TEST(Participants, TrialsAreSeededAndDifferByTechniqueAndTask) {
   const Participant person = participant(options, 1, 0);
   const auto draw = [&](TaskKind task, Steering steering, std::uint64_t number) {
     return draw_trial(s.target, s.curve, {}, task, s.place, options, person, steering, number,
-                      [](const stroke::Frame&) { return std::optional<Vec3>(); });
+                      [](const Frame&) { return std::optional<Vec3>(); });
   };
-  const stroke::Stroke a = draw(TaskKind::tracing, Steering::moves, 4);
-  const stroke::Stroke b = draw(TaskKind::tracing, Steering::moves, 4);
-  const stroke::Stroke c = draw(TaskKind::tracing, Steering::moves, 5);
+  const Stroke a = draw(TaskKind::tracing, Steering::moves, 4);
+  const Stroke b = draw(TaskKind::tracing, Steering::moves, 4);
+  const Stroke c = draw(TaskKind::tracing, Steering::moves, 5);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   EXPECT_EQ(a.frames.back().controller.position, b.frames.back().controller.position);
   EXPECT_NE(a.frames.back().controller.position, c.frames.back().controller.position);
-  EXPECT_NO_THROW(stroke::require_usable(a));
-  const stroke::Stroke aimed = draw(TaskKind::tracing, Steering::aims, 4);
+  EXPECT_NO_THROW(require_usable(a));
+  const Stroke aimed = draw(TaskKind::tracing, Steering::aims, 4);
   EXPECT_LT(aimed.frames.size(), a.frames.size()) << "aiming is quicker";
-  const stroke::Stroke again = draw(TaskKind::re_creating, Steering::moves, 4);
+  const Stroke again = draw(TaskKind::re_creating, Steering::moves, 4);
   EXPECT_LT(again.frames.size(), a.frames.size());
   ASSERT_TRUE(again.intended);
   EXPECT_EQ(again.intended->points.size(), s.curve.points.size());
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

@@ -1,10 +1,10 @@
+#include "study/polyline.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <mimicry/study/polyline.h>
-
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 TEST(Polyline, ResamplingIsEvenInLengthAndKeepsTheEnds) {
@@ -34,4 +34,4 @@ TEST(Polyline, DistanceOfATranslatedCopyIsTheTranslation) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

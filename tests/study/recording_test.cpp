@@ -7,22 +7,21 @@
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/session/stroke_session.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/measures.h>
-#include <mimicry/study/protocol.h>
 #include <mimicry/study/recording.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 struct Recorded {
-  spatial::Target target{make_shape("torus", {.resolution = 24})};
-  stroke::Stroke stroke;
-  curve::ProjectedCurve curve;
+  Target target{make_shape("torus", {.resolution = 24})};
+  Stroke stroke;
+  ProjectedCurve curve;
 };
 
-Recorded recorded(const char* technique, session::MissPolicy misses) {
+Recorded recorded(const char* technique, MissPolicy misses) {
   Recorded r;
   Similarity placed;
   placed.rotation = Quat(Eigen::AngleAxisd(0.4, Vec3(1, 1, 0).normalized()));
@@ -32,31 +31,31 @@ Recorded recorded(const char* technique, session::MissPolicy misses) {
   options.rate_hz = 30;
   options.wobble_rad = 0.6;  // so that spraycan misses the torus now and then
   r.stroke = simulate(r.target, intended_curves("torus", r.target)[1], placed, options, 3);
-  session::SessionOptions session;
+  SessionOptions session;
   session.misses = misses;
-  r.curve = session::project({&r.target}, technique::find_technique(technique), r.stroke, session);
+  r.curve = project({r.target}, find_technique(technique), r.stroke, session).curve;
   return r;
 }
 
 TEST(Recording, GivesStrokeAndCurveBack) {
   for (const char* technique : {"spraycan", "mimicry-live"}) {
     SCOPED_TRACE(technique);
-    const Recorded r = recorded(technique, session::MissPolicy::split);
+    const Recorded r = recorded(technique, MissPolicy::split);
     const RecordedStroke file = record(r.stroke, r.curve, "Spray");
     EXPECT_EQ(frame_count(file), r.curve.points.size());
     EXPECT_EQ(method_of(file), "Spray");
-    const curve::ProjectedCurve curve = curve_of(file, r.target);
+    const ProjectedCurve curve = curve_of(file, r.target);
     ASSERT_EQ(curve.points.size(), r.curve.points.size());
     ASSERT_EQ(curve.pieces.size(), r.curve.pieces.size());
-    const stroke::Stroke stroke = stroke_of(file);
+    const Stroke stroke = stroke_of(file);
     ASSERT_EQ(stroke.frames.size(), curve.points.size());
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
-      const curve::CurvePoint& was = r.curve.points[i];
+      const CurvePoint& was = r.curve.points[i];
       EXPECT_EQ(curve.points[i].surface.face, was.surface.face);
       EXPECT_EQ(curve.points[i].surface.bary, was.surface.bary);
       EXPECT_EQ(curve.points[i].normal, was.normal);
       EXPECT_EQ(curve.points[i].pen_distance, was.pen_distance);
-      const stroke::Frame& frame = r.stroke.frames[static_cast<std::size_t>(was.frame)];
+      const Frame& frame = r.stroke.frames[static_cast<std::size_t>(was.frame)];
       // The way into the model's coordinates and back rounds.
       EXPECT_NEAR(stroke.frames[i].time_s, frame.time_s, 1e-12);
       EXPECT_LT((stroke.frames[i].controller.position - frame.controller.position).norm(), 1e-12);
@@ -70,8 +69,7 @@ TEST(Recording, GivesStrokeAndCurveBack) {
       EXPECT_EQ(curve.pieces[i].length, r.curve.pieces[i].length) << i;
     }
     std::size_t gaps = 0;
-    for (const curve::Piece& piece : curve.pieces)
-      gaps += piece.kind == curve::PieceKind::gap ? 1 : 0;
+    for (const Piece& piece : curve.pieces) gaps += piece.kind == PieceKind::gap ? 1 : 0;
     EXPECT_EQ(piece_count(file), gaps + 1);
     // A recording of the recording is the recording.
     const RecordedStroke again = record(stroke, curve, "Spray");
@@ -81,13 +79,12 @@ TEST(Recording, GivesStrokeAndCurveBack) {
 }
 
 TEST(Recording, IsMeasuredLikeTheStrokeItself) {
-  const Recorded r = recorded("mimicry-live", session::MissPolicy::connect);
+  const Recorded r = recorded("mimicry-live", MissPolicy::connect);
   const TargetCurve target{r.stroke.intended->points, {}, {}};
   const RecordedStroke file = record(r.stroke, r.curve, "AnchorPhong");
   const IntendedCurve intended = intended_curve(r.target.mesh(), target, placement_of(file).scale);
-  const auto measured = [&](const curve::ProjectedCurve& curve,
-                            const std::vector<MotionSample>& motion) {
-    return measure(r.target.mesh(), r.target.half_edges(), intended, curve, motion);
+  const auto measured = [&](const ProjectedCurve& curve, const std::vector<MotionSample>& motion) {
+    return measure(r.target.surface(), intended, curve, motion);
   };
   // Every frame inked, so that both know the same.
   ASSERT_EQ(r.curve.points.size(), r.stroke.frames.size());
@@ -103,7 +100,7 @@ TEST(Recording, IsMeasuredLikeTheStrokeItself) {
 }
 
 TEST(Recording, RefusalsNameTheReason) {
-  const Recorded r = recorded("mimicry-live", session::MissPolicy::connect);
+  const Recorded r = recorded("mimicry-live", MissPolicy::connect);
   const RecordedStroke sound = record(r.stroke, r.curve, "AnchorPhong");
   const auto message = [&](const RecordedStroke& stroke) -> std::string {
     try {
@@ -179,4 +176,4 @@ TEST(Protocol, MethodsHaveTheWordsOfTheRecordings) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

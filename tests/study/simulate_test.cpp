@@ -8,20 +8,20 @@
 
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
 namespace {
 
 struct Scene {
-  spatial::Target target;
-  std::vector<stroke::Intention> curves;
+  Target target;
+  std::vector<Intention> curves;
   Similarity place;
 };
 
 Scene scene(std::string_view shape) {
-  spatial::Target target(make_shape(shape));
+  Target target(make_shape(shape));
   auto curves = intended_curves(shape, target);
   Similarity place{Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY())), Vec3(0.1, 1.2, -0.4),
                    find_shape(shape)->metres_per_unit};
@@ -37,9 +37,9 @@ SimulationOptions steady() {
   return options;
 }
 
-double mean_distance(const Scene& s, const stroke::Stroke& stroke) {
+double mean_distance(const Scene& s, const Stroke& stroke) {
   double sum = 0;
-  for (const stroke::Frame& f : stroke.frames)
+  for (const Frame& f : stroke.frames)
     sum += s.target.closest_point(s.place.inverse_point(f.controller.position))->distance *
            s.place.scale;
   return sum / static_cast<double>(stroke.frames.size());
@@ -49,17 +49,17 @@ TEST(Simulate, EveryCurveOfEveryShapeGivesAUsableStrokeAtTheStudysDistance) {
   std::uint64_t seed = 1;
   for (const ShapeInfo& info : builtin_shapes()) {
     const Scene s = scene(info.name);
-    for (const stroke::Intention& curve : s.curves) {
+    for (const Intention& curve : s.curves) {
       SCOPED_TRACE(std::string(info.name) + " " + curve.name + " seed " + std::to_string(seed));
-      const stroke::Stroke stroke = simulate(s.target, curve, s.place, {}, seed++);
-      EXPECT_NO_THROW(stroke::require_usable(stroke));
+      const Stroke stroke = simulate(s.target, curve, s.place, {}, seed++);
+      EXPECT_NO_THROW(require_usable(stroke));
       EXPECT_NEAR(mean_distance(s, stroke), 0.048, 0.05 * 0.048);
       const double duration = stroke.frames.back().time_s;
       EXPECT_GE(duration, 4 - 0.01);
       EXPECT_LE(duration, 5 + 0.01);
       double head_distance = 0;
       for (std::size_t i = 0; i < stroke.frames.size(); ++i) {
-        const stroke::Frame& f = stroke.frames[i];
+        const Frame& f = stroke.frames[i];
         EXPECT_NEAR(f.head.orientation.norm(), 1, 1e-12);
         EXPECT_NEAR(f.controller.orientation.norm(), 1, 1e-12);
         const Vec3 look = f.controller.position - f.head.position;
@@ -67,7 +67,7 @@ TEST(Simulate, EveryCurveOfEveryShapeGivesAUsableStrokeAtTheStudysDistance) {
         // The tip is looked at, up to drift, tremor and noise (a few millimetres at 30 cm or more).
         EXPECT_GT(f.head.forward().dot(look.normalized()), 0.999);
         if (i == 0) continue;
-        const stroke::Frame& before = stroke.frames[i - 1];
+        const Frame& before = stroke.frames[i - 1];
         EXPECT_GT(f.time_s, before.time_s);
         // No jumps: below 2 m/s and 15 rad/s.
         EXPECT_LT((f.controller.position - before.controller.position).norm(), 2.0 / 90);
@@ -169,7 +169,7 @@ TEST(Simulate, DriftIsSlowAndNoiseIsWhite) {
 TEST(Simulate, SpeedFollowsTheTwoThirdsPowerLaw) {
   // On an ellipse, away from start and stop: slope of log speed over log curvature.
   const Scene s = scene("grid");
-  stroke::Intention ellipse{"ellipse", true, {}};
+  Intention ellipse{"ellipse", true, {}};
   for (int i = 0; i <= 400; ++i) {
     const double t = 2 * std::numbers::pi * i / 400;
     ellipse.points.push_back(
@@ -198,10 +198,10 @@ TEST(Simulate, ControllerPointsAtTheIntendedCurve) {
   int near = 0, all = 0;
   for (const char* shape : {"sphere", "cube", "torus", "hand", "rounded-cube"}) {
     const Scene s = scene(shape);
-    for (const stroke::Intention& curve : s.curves) {
+    for (const Intention& curve : s.curves) {
       const auto stroke = simulate(s.target, curve, s.place, {}, 5);
-      for (const stroke::Frame& world : stroke.frames) {
-        const stroke::Frame f = stroke::to_model(world, s.place);
+      for (const Frame& world : stroke.frames) {
+        const Frame f = to_model(world, s.place);
         const auto hit = s.target.first_hit(f.controller.position, f.controller.forward());
         double nearest = kInfinity;
         if (hit)
@@ -218,10 +218,10 @@ TEST(Simulate, ControllerPointsAtTheIntendedCurve) {
 
 TEST(Simulate, TheStartIsAimed) {
   const Scene s = scene("cube");
-  for (const stroke::Intention& curve : s.curves)
+  for (const Intention& curve : s.curves)
     for (const std::uint64_t seed : {1, 2, 3}) {
       const auto stroke = simulate(s.target, curve, s.place, {}, seed);
-      const stroke::Frame f = stroke::to_model(stroke.frames.front(), s.place);
+      const Frame f = to_model(stroke.frames.front(), s.place);
       const auto hit = s.target.first_hit(f.controller.position, f.controller.forward());
       ASSERT_TRUE(hit);
       // Tremor and noise of position and direction, 0.1 degrees at 5 to 10 cm.
@@ -252,13 +252,13 @@ TEST(Simulate, FeedbackRemovesAConstantError) {
   const Scene s = scene("grid");
   const Vec3 bias = s.place.direction(Vec3(0.01, 0, 0));
   // Ink: straight below the tip, one centimetre to the side.
-  const InkFunction ink = [&](const stroke::Frame& frame) -> std::optional<Vec3> {
+  const InkFunction ink = [&](const Frame& frame) -> std::optional<Vec3> {
     const Vec3 model = s.place.inverse_point(frame.controller.position);
     return s.place.point(Vec3(model[0], model[1], 0)) + bias;
   };
   SimulationOptions options = steady();
   options.smoothing_m = 0;
-  const auto error_at_end = [&](const stroke::Stroke& stroke) {
+  const auto error_at_end = [&](const Stroke& stroke) {
     return (*ink(stroke.frames.back()) -
             s.place.point(s.target.position(s.curves[1].points.back())))
         .norm();
@@ -266,7 +266,7 @@ TEST(Simulate, FeedbackRemovesAConstantError) {
   const auto open = simulate(s.target, s.curves[1], s.place, options, 2);
   int calls = 0;
   const auto closed =
-      simulate_closed_loop(s.target, s.curves[1], s.place, options, 2, [&](const stroke::Frame& f) {
+      simulate_closed_loop(s.target, s.curves[1], s.place, options, 2, [&](const Frame& f) {
         ++calls;
         return ink(f);
       });
@@ -278,20 +278,20 @@ TEST(Simulate, FeedbackRemovesAConstantError) {
     EXPECT_EQ(open.frames[i].controller.position, closed.frames[i].controller.position);
   // Misses are not corrected.
   const auto missing = simulate_closed_loop(s.target, s.curves[1], s.place, options, 2,
-                                            [](const stroke::Frame&) { return std::nullopt; });
+                                            [](const Frame&) { return std::nullopt; });
   EXPECT_EQ(missing.frames.back().controller.position, open.frames.back().controller.position);
 }
 
 TEST(Simulate, ACopyTurnsOnlyBeyondItsSlant) {
   const Scene s = scene("torus");
-  const stroke::Intention& curve = s.curves[1];
+  const Intention& curve = s.curves[1];
   SimulationOptions options = steady();
   options.copy = HandCopy::translated;
-  const stroke::Stroke translated = simulate(s.target, curve, s.place, options, 3);
+  const Stroke translated = simulate(s.target, curve, s.place, options, 3);
   const auto farthest = [&](HandCopy copy, double slant_rad) {
     options.copy = copy;
     options.slant_rad = slant_rad;
-    const stroke::Stroke stroke = simulate(s.target, curve, s.place, options, 3);
+    const Stroke stroke = simulate(s.target, curve, s.place, options, 3);
     double most = 0;
     for (std::size_t i = 0; i < stroke.frames.size(); ++i)
       most = std::max(
@@ -307,12 +307,12 @@ TEST(Simulate, ACopyTurnsOnlyBeyondItsSlant) {
 TEST(Simulate, InkOnAnotherPartIsNotChased) {
   const Scene s = scene("torus");
   SimulationOptions options = steady();
-  const stroke::Stroke open = simulate(s.target, s.curves[1], s.place, options, 2);
+  const Stroke open = simulate(s.target, s.curves[1], s.place, options, 2);
   const auto moved = [&](double most_corrected_m) {
     options.most_corrected_m = most_corrected_m;
-    const stroke::Stroke stroke = simulate_closed_loop(
+    const Stroke stroke = simulate_closed_loop(
         s.target, s.curves[1], s.place, options, 2,
-        [](const stroke::Frame& f) { return Vec3(f.controller.position + Vec3(1, 0, 0)); });
+        [](const Frame& f) { return Vec3(f.controller.position + Vec3(1, 0, 0)); });
     return (stroke.frames.back().controller.position - open.frames.back().controller.position)
         .norm();
   };
@@ -352,7 +352,7 @@ TEST(Simulate, ScaledTargetsGiveTheSameWorldStroke) {
     std::vector<Vec3> positions(s.target.mesh().positions().begin(),
                                 s.target.mesh().positions().end());
     for (Vec3& p : positions) p *= factor;
-    const spatial::Target scaled(s.target.mesh().with_positions(positions));
+    const Target scaled(s.target.mesh().with_positions(positions));
     Similarity place = s.place;
     place.scale /= factor;
     const auto stroke = simulate(scaled, s.curves[0], place, {}, 9);
@@ -365,7 +365,7 @@ TEST(Simulate, ScaledTargetsGiveTheSameWorldStroke) {
 
 TEST(Simulate, RefusesWhatItCannotDraw) {
   const Scene s = scene("sphere");
-  const auto refused = [&](const stroke::Intention& curve, const SimulationOptions& options) {
+  const auto refused = [&](const Intention& curve, const SimulationOptions& options) {
     EXPECT_THROW(simulate(s.target, curve, s.place, options, 1), Error);
   };
   refused({"empty", false, {}}, {});
@@ -382,4 +382,4 @@ TEST(Simulate, RefusesWhatItCannotDraw) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

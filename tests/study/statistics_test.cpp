@@ -9,13 +9,12 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/random.h>
 #include <mimicry/base/types.h>
-#include <mimicry/study/bootstrap.h>
 #include <mimicry/study/comparison.h>
-#include <mimicry/study/holm.h>
-#include <mimicry/study/normal_distribution.h>
-#include <mimicry/study/wilcoxon.h>
 
-namespace mimicry::study {
+#include "study/holm.h"
+#include "study/normal_distribution.h"
+
+namespace mimicry {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -227,4 +226,4 @@ TEST(Bootstrap, Moments) {
 }
 
 }  // namespace
-}  // namespace mimicry::study
+}  // namespace mimicry

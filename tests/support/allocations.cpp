@@ -5,6 +5,10 @@
 #include <limits>
 #include <new>
 
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
+
 namespace {
 
 std::atomic<long> allocations = 0;
@@ -18,7 +22,19 @@ void* counted(std::size_t size) {
 void* counted(std::size_t size, std::align_val_t alignment) {
   if (++allocations > end) return nullptr;
   const auto align = static_cast<std::size_t>(alignment);
+#if defined(_WIN32)
+  return _aligned_malloc(size, align);
+#else
   return std::aligned_alloc(align, (size + align - 1) / align * align);
+#endif
+}
+
+void free_aligned(void* p) {
+#if defined(_WIN32)
+  _aligned_free(p);
+#else
+  std::free(p);
+#endif
 }
 
 void* or_throw(void* p) {
@@ -60,8 +76,8 @@ void operator delete(void* p, const std::nothrow_t&) noexcept {
   std::free(p);
 }
 void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
+  free_aligned(p);
 }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
+  free_aligned(p);
 }

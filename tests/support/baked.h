@@ -8,16 +8,16 @@ namespace mimicry::test {
 
 /// A target with a quick bake: few samples, as the tests' shapes are simple.
 struct BakedTarget {
-  spatial::Target target;
-  embedding::SmoothProjector projector;
+  Target target;
+  SmoothProjector projector;
 
   explicit BakedTarget(const TriangleMesh& mesh) : target(mesh), projector(baked(mesh), target) {}
-  technique::Canvas canvas() const { return {&target, 1.0, &projector}; }
+  Canvas canvas() const { return {target, 1.0, projector}; }
 
-  static embedding::Embedding baked(const TriangleMesh& mesh) {
-    embedding::BakeOptions options;
+  static Embedding baked(const TriangleMesh& mesh) {
+    BakeOptions options;
     options.samples = 120;
-    return bake::bake(mesh, options);
+    return mimicry::bake(mesh, options);
   }
 };
 

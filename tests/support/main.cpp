@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <mimicry/base/float_traps.h>
+#include "base/float_traps.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

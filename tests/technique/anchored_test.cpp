@@ -7,13 +7,14 @@
 
 #include <mimicry/base/random.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/spatial/pseudonormal.h>
 #include <mimicry/technique/technique.h>
 
+#include "any_memory.h"
+#include "spatial/pseudonormal.h"
 #include "support/baked.h"
 #include "technique/planar_section.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 const test::BakedTarget& sphere() {
@@ -21,19 +22,19 @@ const test::BakedTarget& sphere() {
   return baked;
 }
 
-Step step(std::string_view name, const Canvas& canvas, const Memory& memory, const Vec3& pen,
-          const Quat& turned = Quat::Identity()) {
-  stroke::Frame frame;
+AnyStep step(std::string_view name, const Canvas& canvas, const AnyMemory& memory, const Vec3& pen,
+             const Quat& turned = Quat::Identity()) {
+  Frame frame;
   frame.time_s = memory.time_s + 1.0 / 90;
   frame.controller = {pen, turned};
-  return find_technique(name).step(canvas, memory, frame, {});
+  return any_step(find_technique(name), canvas, memory, frame);
 }
 
 // Pen at p, last point at q (on the surface), and the motion before.
-Memory anchor(const spatial::Target& target, const Vec3& p, const Vec3& q,
-              const Vec3& motion = Vec3::Zero()) {
+AnyMemory anchor(const Target& target, const Vec3& p, const Vec3& q,
+                 const Vec3& motion = Vec3::Zero()) {
   const auto closest = target.closest_point(q);
-  Memory memory;
+  AnyMemory memory;
   memory.anchored = true;
   memory.pen = p;
   memory.surface = closest->surface;
@@ -51,10 +52,10 @@ constexpr std::array<std::string_view, 7> kAnchored = {
 TEST(Anchored, AllStartWithTheSpray) {
   for (const std::string_view name : kAnchored) {
     const Quat away(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY()));
-    const Step waiting = step(name, sphere().canvas(), {}, Vec3(0.1, 0.2, 2.0), away);
+    const AnyStep waiting = step(name, sphere().canvas(), {}, Vec3(0.1, 0.2, 2.0), away);
     EXPECT_EQ(waiting.answer, Answer::miss) << name;
     EXPECT_FALSE(waiting.memory.anchored);
-    const Step first = step(name, sphere().canvas(), waiting.memory, Vec3(0.1, 0.2, 2.0));
+    const AnyStep first = step(name, sphere().canvas(), waiting.memory, Vec3(0.1, 0.2, 2.0));
     EXPECT_EQ(first.answer, Answer::ray) << name;
     EXPECT_EQ(first.position,
               sphere().target.first_hit(Vec3(0.1, 0.2, 2.0), -Vec3::UnitZ())->position);
@@ -71,7 +72,7 @@ TEST(SmoothClosest, TechniquesSolveTheirEquations) {
   for (int i = 0; i < 100; ++i) {
     const Vec3 q0 = normal_vector().normalized(), p0 = q0 + 0.2 * normal_vector();
     const Vec3 motion = 0.01 * normal_vector(), p = p0 + motion;
-    const Memory memory = anchor(s.target, p0, q0);
+    const AnyMemory memory = anchor(s.target, p0, q0);
     const Vec3 r = memory.position + motion;
     const auto scp = [&](const Vec3& y) { return s.projector.project(y)->position; };
     const auto gradient = [&](const Vec3& y) -> Vec3 {
@@ -93,9 +94,9 @@ TEST(SmoothClosest, TechniquesSolveTheirEquations) {
 
 TEST(SmoothClosest, AnswersNameTheirLabel) {
   const test::BakedTarget& s = sphere();
-  const Memory memory = anchor(s.target, Vec3(0, 0, 2), Vec3(0, 0, 1));
+  const AnyMemory memory = anchor(s.target, Vec3(0, 0, 2), Vec3(0, 0, 1));
   EXPECT_EQ(step("mimicry", s.canvas(), memory, Vec3(0, 0.01, 2)).answer, Answer::smooth);
-  const Step far = step("mimicry", s.canvas(), memory, Vec3(0, 3, 2));
+  const AnyStep far = step("mimicry", s.canvas(), memory, Vec3(0, 3, 2));
   EXPECT_EQ(far.answer, Answer::outside_shell);
   EXPECT_EQ(far.position, s.target.closest_point(memory.position + Vec3(0, 3, 0))->position);
 }
@@ -103,11 +104,11 @@ TEST(SmoothClosest, AnswersNameTheirLabel) {
 TEST(SmoothClosest, MotionAcrossTheSurfaceIsDropped) {
   // Straight up from a point of a plane: offset and parallel stay where they are.
   const test::BakedTarget grid(make_grid(12));
-  const Memory memory = anchor(grid.target, Vec3(0.2, 0.1, 0.3), Vec3(-0.1, 0.05, 0.0));
+  const AnyMemory memory = anchor(grid.target, Vec3(0.2, 0.1, 0.3), Vec3(-0.1, 0.05, 0.0));
   for (const std::string_view name : {"mimicry-offset", "mimicry-parallel"}) {
-    const Step up = step(name, grid.canvas(), memory, Vec3(0.2, 0.1, 0.35));
+    const AnyStep up = step(name, grid.canvas(), memory, Vec3(0.2, 0.1, 0.35));
     EXPECT_LT((up.position - memory.position).norm(), 1e-9) << name;
-    const Step across = step(name, grid.canvas(), memory, Vec3(0.23, 0.12, 0.35));
+    const AnyStep across = step(name, grid.canvas(), memory, Vec3(0.23, 0.12, 0.35));
     // The embedding of a flat sheet is flat to the quality of its scaling.
     EXPECT_LT((across.position - memory.position - Vec3(0.03, 0.02, 0.0)).norm(), 1e-4) << name;
   }
@@ -139,7 +140,7 @@ TEST(PlanarSection, IsTheClosestPointOfTheSection) {
     return Vec3(random.normal(), random.normal(), random.normal());
   };
   for (const TriangleMesh& mesh : {make_sphere(7), make_grid(9)}) {
-    const HalfEdges edges(mesh);
+    const Surface surface = Surface::as_given(mesh);
     for (int i = 0; i < 200; ++i) {
       SurfacePoint q{
           static_cast<Index>(random.below(static_cast<std::uint32_t>(mesh.face_count()))),
@@ -148,7 +149,7 @@ TEST(PlanarSection, IsTheClosestPointOfTheSection) {
       if (i % 4 == 0) q.bary = Vec3::Unit(i % 3);
       const Vec3 normal = normal_vector().normalized();
       const Vec3 r = mesh.position(q) + 0.3 * normal_vector();
-      const SurfacePoint x = closest_on_section(mesh, edges, q, normal, r);
+      const SurfacePoint x = closest_on_section(surface, q, normal, r);
       // On convex surfaces a section is one component. q is drawn inward by 1e-9, and a section
       // moves by that over the sine between plane and face.
       EXPECT_NEAR(normal.dot(mesh.position(x) - mesh.position(q)), 0.0, 1e-8);
@@ -195,7 +196,8 @@ TEST(PlanarSection, IsTheClosestPointOfItsComponentOnBentSurfaces) {
   Random random(5);
   for (const TriangleMesh& mesh : {make_torus(24, 12), make_hand(1), make_trefoil(6),
                                    make_noisy_cube(6, 0.2, true, 3), make_moebius_strip(24)}) {
-    const HalfEdges edges(mesh);
+    const Surface surface = Surface::as_given(mesh);
+    const HalfEdges& edges = surface.half_edges();
     for (int i = 0; i < 200; ++i) {
       SurfacePoint q{
           static_cast<Index>(random.below(static_cast<std::uint32_t>(mesh.face_count()))),
@@ -204,7 +206,7 @@ TEST(PlanarSection, IsTheClosestPointOfItsComponentOnBentSurfaces) {
       const Vec3 normal = Vec3(random.normal(), random.normal(), random.normal()).normalized();
       const Vec3 r =
           mesh.position(q) + 0.2 * Vec3(random.normal(), random.normal(), random.normal());
-      const SurfacePoint x = closest_on_section(mesh, edges, q, normal, r);
+      const SurfacePoint x = closest_on_section(surface, q, normal, r);
       EXPECT_NEAR((mesh.position(x) - r).norm(), distance_to_component(mesh, edges, q, normal, r),
                   1e-6)
           << "trial " << i;
@@ -214,9 +216,9 @@ TEST(PlanarSection, IsTheClosestPointOfItsComponentOnBentSurfaces) {
 
 TEST(PlanarSection, StaysOnItsComponent) {
   const TriangleMesh mesh = make_two_spheres(6);
-  const SurfacePoint q = spatial::Target(mesh).closest_point(Vec3(-0.55, 0.45, 0.0))->surface;
+  const SurfacePoint q = Target(mesh).closest_point(Vec3(-0.55, 0.45, 0.0))->surface;
   const SurfacePoint x =
-      closest_on_section(mesh, HalfEdges(mesh), q, Vec3::UnitZ(), Vec3(0.4, 0.1, 0.0));
+      closest_on_section(Surface::as_given(mesh), q, Vec3::UnitZ(), Vec3(0.4, 0.1, 0.0));
   EXPECT_LT(mesh.position(x)[0], -0.1 + 1e-9);
   EXPECT_GT(mesh.position(x)[0], -0.12) << "the first sphere's point nearest to the second";
 }
@@ -224,31 +226,32 @@ TEST(PlanarSection, StaysOnItsComponent) {
 TEST(MimicryPlanar, FollowsThePlaneOfTheLastTwoMotions) {
   const test::BakedTarget& s = sphere();
   const Vec3 before(0.02, 0.01, 0.0), motion(0.01, 0.02, 0.005);
-  const Memory memory = anchor(s.target, Vec3(0.1, 0.1, 1.3), Vec3(0.1, 0.1, 1.0), before);
-  const Step a = step("mimicry-planar", s.canvas(), memory, memory.pen + motion);
+  const AnyMemory memory = anchor(s.target, Vec3(0.1, 0.1, 1.3), Vec3(0.1, 0.1, 1.0), before);
+  const AnyStep a = step("mimicry-planar", s.canvas(), memory, memory.pen + motion);
   EXPECT_EQ(a.answer, Answer::section);
   const Vec3 normal = motion.cross(before).normalized();
   EXPECT_NEAR(normal.dot(a.position - memory.position), 0.0, 1e-9);
   EXPECT_LT((a.memory.motion - motion).norm(), 1e-15);
   // The same motion again spans no plane: the last one is kept.
-  const Step b = step("mimicry-planar", s.canvas(), a.memory, a.memory.pen + motion);
+  const AnyStep b = step("mimicry-planar", s.canvas(), a.memory, a.memory.pen + motion);
   EXPECT_EQ(b.answer, Answer::section);
   EXPECT_NEAR(normal.dot(b.position - memory.position), 0.0, 1e-9);
   // No motion at all.
-  const Step c = step("mimicry-planar", s.canvas(), b.memory, b.memory.pen);
+  const AnyStep c = step("mimicry-planar", s.canvas(), b.memory, b.memory.pen);
   EXPECT_LT((c.position - b.position).norm(), 1e-12);
   EXPECT_EQ(c.memory.motion, b.memory.motion);
   // Before there was any plane: the closest point.
-  const Memory straight = anchor(s.target, Vec3(0.1, 0.1, 1.3), Vec3(0.1, 0.1, 1.0), motion);
+  const AnyMemory straight = anchor(s.target, Vec3(0.1, 0.1, 1.3), Vec3(0.1, 0.1, 1.0), motion);
   EXPECT_EQ(step("mimicry-planar", s.canvas(), straight, straight.pen + motion).answer,
             Answer::closest);
 }
 
 TEST(MimicryPlanar, SpraysTheFirstTwoPoints) {
   const test::BakedTarget& s = sphere();
-  Memory memory;
+  AnyMemory memory;
   for (int i = 0; i < 3; ++i) {
-    const Step next = step("mimicry-planar", s.canvas(), memory, Vec3(0.01 * i, 0.02 * i * i, 2.0));
+    const AnyStep next =
+        step("mimicry-planar", s.canvas(), memory, Vec3(0.01 * i, 0.02 * i * i, 2.0));
     EXPECT_EQ(next.answer, i < 2 ? Answer::ray : Answer::section) << i;
     memory = next.memory;
   }
@@ -257,8 +260,8 @@ TEST(MimicryPlanar, SpraysTheFirstTwoPoints) {
 TEST(AnchoredRayPlane, HitsAcrossTheMotion) {
   const test::BakedTarget& s = sphere();
   const Vec3 motion(0.01, 0.02, 0.005);
-  const Memory memory = anchor(s.target, Vec3(0.2, 0.1, 1.3), Vec3(0.1, 0.1, 1.0));
-  const Step a = step("anchored-ray-plane", s.canvas(), memory, memory.pen + motion);
+  const AnyMemory memory = anchor(s.target, Vec3(0.2, 0.1, 1.3), Vec3(0.1, 0.1, 1.0));
+  const AnyStep a = step("anchored-ray-plane", s.canvas(), memory, memory.pen + motion);
   ASSERT_EQ(a.answer, Answer::ray);
   const Vec3 ray = a.position - (memory.position + motion);
   EXPECT_NEAR(ray.dot(motion), 0.0, 1e-15);
@@ -269,17 +272,17 @@ TEST(AnchoredRayPlane, HitsAcrossTheMotion) {
   EXPECT_EQ(step("anchored-ray-plane", s.canvas(), memory, memory.pen + 0.01 * lift).answer,
             Answer::miss);
   EXPECT_EQ(step("anchored-ray-plane", s.canvas(), memory, memory.pen).answer, Answer::miss);
-  const Step b = step("anchored-ray-plane", s.canvas(), a.memory, a.memory.pen);
+  const AnyStep b = step("anchored-ray-plane", s.canvas(), a.memory, a.memory.pen);
   EXPECT_EQ(b.answer, Answer::ray);
   EXPECT_LT((b.position - a.position).norm(), 1e-9) << "the hand rests";
 }
 
 TEST(AnchoredRayTransport, TurnsTheRayWithTheMotion) {
   const test::BakedTarget& s = sphere();
-  const Memory straight =
+  const AnyMemory straight =
       anchor(s.target, Vec3(0.2, 0.1, 1.3), Vec3(0.1, 0.1, 1.0), Vec3(0.01, 0.02, 0.0));
   const auto ray_after = [&](const Vec3& motion) -> Vec3 {
-    const Step a = step("anchored-ray-transport", s.canvas(), straight, straight.pen + motion);
+    const AnyStep a = step("anchored-ray-transport", s.canvas(), straight, straight.pen + motion);
     EXPECT_EQ(a.answer, Answer::ray);
     return (a.position - (straight.position + motion)).normalized();
   };
@@ -292,17 +295,17 @@ TEST(AnchoredRayTransport, TurnsTheRayWithTheMotion) {
   const Mat3 turn = Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix();
   expect_parallel(ray_after(turn * Vec3(0.01, 0.02, 0.0)), turn * last);
   expect_parallel(ray_after(Vec3(-0.01, -0.02, 0.0)), last);  // reversed
-  const Step rest = step("anchored-ray-transport", s.canvas(), straight, straight.pen);
+  const AnyStep rest = step("anchored-ray-transport", s.canvas(), straight, straight.pen);
   EXPECT_LT((rest.position - straight.position).norm(), 1e-9);
 }
 
 TEST(Anchored, FarAndStillHandsAreHarmless) {
   const test::BakedTarget& s = sphere();
   for (const TechniqueInfo& info : techniques()) {
-    Memory memory = anchor(s.target, Vec3(0, 0, 1.3), Vec3(0, 0, 1), Vec3(0.01, 0, 0));
+    AnyMemory memory = anchor(s.target, Vec3(0, 0, 1.3), Vec3(0, 0, 1), Vec3(0.01, 0, 0));
     for (const Vec3& pen : {Vec3(0, 0, 1.3), Vec3(1e-200, 0, 1.3), Vec3(1e8, 0, 0),
                             Vec3(-1e40, 1e40, 0), Vec3(1e100, 0, 0), Vec3(0.1, 0.1, 1.2)}) {
-      const Step next = step(info.name, s.canvas(), memory, pen);
+      const AnyStep next = step(info.name, s.canvas(), memory, pen);
       EXPECT_TRUE(next.position.allFinite()) << info.name;
       memory = next.memory;
     }
@@ -310,4 +313,4 @@ TEST(Anchored, FarAndStillHandsAreHarmless) {
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

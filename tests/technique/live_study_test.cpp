@@ -8,17 +8,19 @@
 
 #include <gtest/gtest.h>
 
-#include <mimicry/io/mesh_reader.h>
-#include <mimicry/io/targets_reader.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/study.h>
 #include <mimicry/study/simulate.h>
 #include <mimicry/technique/technique.h>
 
-namespace mimicry::technique {
+#include "technique/steps.h"
+
+namespace mimicry {
 namespace {
 
 struct StudyShape {
-  study::TargetShape info;
-  spatial::Target target;
+  TargetShape info;
+  Target target;
 };
 
 std::string bytes(const std::filesystem::path& path) {
@@ -33,9 +35,8 @@ std::vector<StudyShape> study_shapes() {
   const std::filesystem::path folder = MIMICRY_STUDY_DATA;
   std::vector<StudyShape> shapes;
   if (!std::filesystem::exists(folder / "targets.json")) return shapes;
-  for (auto& info : io::read_targets(bytes(folder / "targets.json"), "targets.json").shapes) {
-    spatial::Target target(
-        io::read_mesh(bytes(folder / (info.name + ".obj")), io::MeshFormat::obj, info.name));
+  for (auto& info : read_targets(bytes(folder / "targets.json"), "targets.json").shapes) {
+    Target target(read_mesh(bytes(folder / (info.name + ".obj")), MeshFormat::obj, info.name));
     shapes.push_back({std::move(info), std::move(target)});
   }
   return shapes;
@@ -45,12 +46,13 @@ std::vector<StudyShape> study_shapes() {
 // of the hand's.
 class Hand {
  public:
-  Hand(const spatial::Target& target, const Similarity& place, bool soft)
-      : canvas_{&target, place.scale}, place_(place) {
-    options_.soft_anchor.on = soft ? 1.0 : 0.0;
+  Hand(const Target& target, const Similarity& place, bool soft)
+      : canvas_{target, place.scale}, place_(place) {
+    options_.soft_anchor = soft;
   }
-  std::optional<Vec3> add(const stroke::Frame& world) {
-    const Step step = technique_.step(canvas_, memory_, to_model(world, place_), options_);
+  std::optional<Vec3> add(const Frame& world) {
+    const Stepped<SoftAnchor> step =
+        mimicry_live(canvas_, memory_, to_model(world, place_), options_);
     if (step.answer == Answer::miss) return std::nullopt;
     if (memory_.anchored) {
       const double dp = (step.memory.pen - memory_.pen).norm();
@@ -65,9 +67,8 @@ class Hand {
  private:
   Canvas canvas_;
   Similarity place_;
-  const TechniqueInfo& technique_ = find_technique("mimicry-live");
-  Options options_;
-  Memory memory_;
+  SoftAnchorOptions options_;
+  SoftAnchor memory_;
   double worst_ = 0.0;
 };
 
@@ -77,13 +78,13 @@ TEST(MimicryLiveStudy, NoStepIsLongerThanFiveTimesTheHandsOpenAndClosedLoop) {
   for (const StudyShape& shape : shapes) {
     const Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), shape.info.scale};
     for (std::size_t c = 0; c < shape.info.curves.size(); c += 2) {
-      const stroke::Intention curve{std::to_string(c), false, shape.info.curves[c].points};
-      const auto open = study::simulate(shape.target, curve, place, {}, 1);
+      const Intention curve{std::to_string(c), false, shape.info.curves[c].points};
+      const auto open = simulate(shape.target, curve, place, {}, 1);
       for (const bool soft : {false, true}) {
         Hand hand(shape.target, place, soft), seeing(shape.target, place, soft);
         for (const auto& frame : open.frames) hand.add(frame);
-        study::simulate_closed_loop(shape.target, curve, place, {}, 1,
-                                    [&](const stroke::Frame& f) { return seeing.add(f); });
+        simulate_closed_loop(shape.target, curve, place, {}, 1,
+                             [&](const Frame& f) { return seeing.add(f); });
         EXPECT_LE(hand.worst(), 5.0) << shape.info.name << " " << c << " seed 1" << soft;
         EXPECT_LE(seeing.worst(), 5.0) << shape.info.name << " " << c << " seed 1" << soft;
       }
@@ -97,10 +98,10 @@ TEST(MimicryLiveStudy, SoftAnchorEndsWithinAMillimetreFrom30To240Hz) {
   for (const StudyShape& shape : shapes) {
     const Similarity place{Quat::Identity(), Vec3(0, 1.2, 0), shape.info.scale};
     for (std::size_t c = 0; c < shape.info.curves.size(); ++c) {
-      const stroke::Intention curve{std::to_string(c), false, shape.info.curves[c].points};
-      study::SimulationOptions options;
+      const Intention curve{std::to_string(c), false, shape.info.curves[c].points};
+      SimulationOptions options;
       options.rate_hz = 720;
-      const auto stroke = study::simulate(shape.target, curve, place, options, 2);
+      const auto stroke = simulate(shape.target, curve, place, options, 2);
       // All rates see the first frame whose spray hits, and the last one.
       std::size_t first = 0;
       Hand waiting(shape.target, place, true);
@@ -124,4 +125,4 @@ TEST(MimicryLiveStudy, SoftAnchorEndsWithinAMillimetreFrom30To240Hz) {
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -8,28 +8,27 @@
 
 #include <mimicry/base/random.h>
 #include <mimicry/mesh/shapes.h>
-#include <mimicry/study/intended_curves.h>
 #include <mimicry/study/simulate.h>
+#include <mimicry/study/targets.h>
 #include <mimicry/technique/technique.h>
 
 #include "support/allocations.h"
+#include "technique/steps.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
-const TechniqueInfo& live() {
-  return find_technique("mimicry-live");
-}
+using LiveStep = Stepped<SoftAnchor>;
 
-Options soft() {
-  Options options;
-  options.soft_anchor.on = 1.0;
+SoftAnchorOptions soft() {
+  SoftAnchorOptions options;
+  options.soft_anchor = true;
   return options;
 }
 
 // A memory that is anchored at the point of the target closest to x, with the pen there.
-Memory anchored_at(const spatial::Target& target, const Vec3& x) {
-  Memory memory;
+SoftAnchor anchored_at(const Target& target, const Vec3& x) {
+  SoftAnchor memory;
   const auto closest = target.closest_point(x);
   memory.anchored = true;
   memory.surface = closest->surface;
@@ -37,21 +36,21 @@ Memory anchored_at(const spatial::Target& target, const Vec3& x) {
   return memory;
 }
 
-stroke::Frame moved(const Memory& memory, const Vec3& motion, double dt = 1.0 / 90) {
-  stroke::Frame frame;
+Frame moved(const SoftAnchor& memory, const Vec3& motion, double dt = 1.0 / 90) {
+  Frame frame;
   frame.time_s = memory.time_s + dt;
   frame.controller.position = memory.pen + motion;
   return frame;
 }
 
-std::vector<Step> draw(const spatial::Target& target, const stroke::Stroke& stroke,
-                       const Options& options = {}, std::size_t every = 1) {
-  const Canvas canvas{&target, stroke.model_to_world.scale};
-  std::vector<Step> steps;
-  Memory memory;
+std::vector<LiveStep> draw(const Target& target, const Stroke& stroke,
+                           const SoftAnchorOptions& options = {}, std::size_t every = 1) {
+  const Canvas canvas{target, stroke.model_to_world.scale};
+  std::vector<LiveStep> steps;
+  SoftAnchor memory;
   for (std::size_t i = 0; i < stroke.frames.size(); i += every) {
-    const stroke::Frame frame = stroke::to_model(stroke.frames[i], stroke.model_to_world);
-    steps.push_back(live().step(canvas, memory, frame, options));
+    const Frame frame = to_model(stroke.frames[i], stroke.model_to_world);
+    steps.push_back(mimicry_live(canvas, memory, frame, options));
     memory = steps.back().memory;
   }
   return steps;
@@ -61,7 +60,7 @@ Similarity placed(std::string_view shape) {
   return {Quat::Identity(), Vec3(0.1, 1.2, -0.4), find_shape(shape)->metres_per_unit};
 }
 
-std::vector<Index> components(const spatial::Target& target) {
+std::vector<Index> components(const Target& target) {
   const HalfEdges& edges = target.half_edges();
   std::vector<Index> of(static_cast<std::size_t>(target.mesh().face_count()), kNone);
   for (Index seed = 0; seed < target.mesh().face_count(); ++seed) {
@@ -80,14 +79,14 @@ std::vector<Index> components(const spatial::Target& target) {
 }
 
 TEST(MimicryLive, OnAPlaneItMimicsTheTangentialMotionExactly) {
-  const spatial::Target target(make_grid(8));
+  const Target target(make_grid(8));
   Random random(31);
-  Memory memory = anchored_at(target, Vec3(0.1, -0.2, 0));
+  SoftAnchor memory = anchored_at(target, Vec3(0.1, -0.2, 0));
   for (int i = 0; i < 500; ++i) {
     Vec3 motion(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.3, 0.3));
     if (std::abs(memory.position[0] + motion[0]) > 0.99) motion[0] *= -1;
     if (std::abs(memory.position[1] + motion[1]) > 0.99) motion[1] *= -1;
-    const Step step = live().step({&target}, memory, moved(memory, motion), {});
+    const LiveStep step = mimicry_live({target}, memory, moved(memory, motion), {});
     ASSERT_EQ(step.answer, Answer::smooth) << i;
     const Vec3 wanted = memory.position + Vec3(motion[0], motion[1], 0);
     ASSERT_LT((step.position - wanted).norm(), 1e-13) << i;
@@ -97,11 +96,11 @@ TEST(MimicryLive, OnAPlaneItMimicsTheTangentialMotionExactly) {
 
 TEST(MimicryLive, OnASphereItFollowsTheGreatCircleAndIgnoresRadialMotion) {
   const int n = 24;
-  const spatial::Target target(make_sphere(n));
+  const Target target(make_sphere(n));
   const double error = *faceting_error("sphere", n);
   const Vec3 start = Vec3(0.2, 0.9, 0.3).normalized();
   const Vec3 across = start.cross(Vec3::UnitX()).normalized();
-  Memory memory = anchored_at(target, start);
+  SoftAnchor memory = anchored_at(target, start);
   // The hand runs along the same circle beside the sphere, so that the points run with it.
   const int count = 400;
   const double angle = 2.0;
@@ -109,7 +108,7 @@ TEST(MimicryLive, OnASphereItFollowsTheGreatCircleAndIgnoresRadialMotion) {
   for (int i = 1; i <= count; ++i) {
     const double a = angle * i / count;
     const Vec3 next = std::cos(a) * start + std::sin(a) * across;
-    const Step step = live().step({&target}, memory, moved(memory, next - last), {});
+    const LiveStep step = mimicry_live({target}, memory, moved(memory, next - last), {});
     ASSERT_EQ(step.answer, Answer::smooth);
     memory = step.memory;
     last = next;
@@ -118,7 +117,8 @@ TEST(MimicryLive, OnASphereItFollowsTheGreatCircleAndIgnoresRadialMotion) {
   // Interpolated normals of the mesh differ from the radius by about the faces' tilt, h error / 2.
   const Vec3 q = memory.position;
   for (const double radial : {0.05, -0.04, 0.2, -0.3}) {
-    const Step step = live().step({&target}, memory, moved(memory, radial * q.normalized()), {});
+    const LiveStep step =
+        mimicry_live({target}, memory, moved(memory, radial * q.normalized()), {});
     EXPECT_LT((step.position - q).norm(), 0.01 * std::abs(radial)) << radial;
   }
 }
@@ -126,11 +126,11 @@ TEST(MimicryLive, OnASphereItFollowsTheGreatCircleAndIgnoresRadialMotion) {
 TEST(MimicryLive, NoStepIsLongerThanFiveTimesTheHands) {
   for (const std::string_view shape :
        {"sphere", "torus", "rounded-cube", "cube", "trefoil", "hand"}) {
-    const spatial::Target target(make_shape(shape));
-    for (const stroke::Intention& curve : study::intended_curves(shape, target))
+    const Target target(make_shape(shape));
+    for (const Intention& curve : intended_curves(shape, target))
       for (const bool is_soft : {false, true}) {
-        const auto stroke = study::simulate(target, curve, placed(shape), {}, 5);
-        const auto steps = draw(target, stroke, is_soft ? soft() : Options{});
+        const auto stroke = simulate(target, curve, placed(shape), {}, 5);
+        const auto steps = draw(target, stroke, is_soft ? soft() : SoftAnchorOptions{});
         for (std::size_t i = 1; i < steps.size(); ++i) {
           if (!steps[i - 1].memory.anchored) continue;
           const double dp = (steps[i].memory.pen - steps[i - 1].memory.pen).norm();
@@ -156,11 +156,11 @@ TEST(MimicryLive, HardTargetsGiveSoundPointsOfTheSameComponent) {
                                               make_cylinder(6),
                                               make_shape("plate")};
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const spatial::Target target(meshes[m]);
+    const Target target(meshes[m]);
     const auto component = components(target);
     Random random(40 + m);
-    for (const Options& options : {Options{}, soft()}) {
-      Memory memory = anchored_at(
+    for (const SoftAnchorOptions& options : {SoftAnchorOptions{}, soft()}) {
+      SoftAnchor memory = anchored_at(
           target, target.position({static_cast<Index>(random.below(
                                        static_cast<std::uint32_t>(target.mesh().face_count()))),
                                    Vec3(0.2, 0.3, 0.5)}));
@@ -170,7 +170,7 @@ TEST(MimicryLive, HardTargetsGiveSoundPointsOfTheSameComponent) {
         const double length = target.diagonal() * std::pow(10.0, random.uniform(-6.0, 0.5));
         const Vec3 motion =
             length * Vec3(random.normal(), random.normal(), random.normal()).normalized();
-        const Step step = live().step({&target}, memory, moved(memory, motion), options);
+        const LiveStep step = mimicry_live({target}, memory, moved(memory, motion), options);
         ASSERT_NE(step.answer, Answer::miss);
         ASSERT_GE(step.surface.bary.minCoeff(), 0.0) << "mesh " << m << " step " << i;
         ASSERT_NEAR(step.surface.bary.sum(), 1.0, 1e-12);
@@ -178,7 +178,7 @@ TEST(MimicryLive, HardTargetsGiveSoundPointsOfTheSameComponent) {
                   1e-12 * target.diagonal());
         ASSERT_EQ(component[static_cast<std::size_t>(step.surface.face)], home)
             << "mesh " << m << " step " << i;
-        if (options.soft_anchor.on == 0.0) {
+        if (!options.soft_anchor) {
           ASSERT_LE((step.position - memory.position).norm(), 2.5001 * length)
               << "mesh " << m << " step " << i;
         }
@@ -189,33 +189,32 @@ TEST(MimicryLive, HardTargetsGiveSoundPointsOfTheSameComponent) {
 }
 
 TEST(MimicryLive, HandsAtRestAndFarAwayAreSafe) {
-  const spatial::Target target(make_sphere(8));
-  const Memory memory = anchored_at(target, Vec3(0, 0, 1));
-  const Step rest = live().step({&target}, memory, moved(memory, Vec3::Zero(), 0.0), soft());
+  const Target target(make_sphere(8));
+  const SoftAnchor memory = anchored_at(target, Vec3(0, 0, 1));
+  const LiveStep rest = mimicry_live({target}, memory, moved(memory, Vec3::Zero(), 0.0), soft());
   EXPECT_EQ(rest.position, memory.position);
   for (const double far : {1e3, 1e30, 1e59})
-    EXPECT_TRUE(live()
-                    .step({&target}, memory, moved(memory, Vec3(far, 0, 0)), soft())
+    EXPECT_TRUE(mimicry_live({target}, memory, moved(memory, Vec3(far, 0, 0)), soft())
                     .position.allFinite());
-  const Step beyond = live().step({&target}, memory, moved(memory, Vec3(1e200, 0, 0)), {});
+  const LiveStep beyond = mimicry_live({target}, memory, moved(memory, Vec3(1e200, 0, 0)), {});
   EXPECT_EQ(beyond.answer, Answer::miss);
   EXPECT_EQ(beyond.memory.pen, memory.pen);
 }
 
 TEST(MimicryLive, UnitsDoNotMatter) {
   const TriangleMesh mesh = make_shape("rounded-cube");
-  const spatial::Target reference(mesh);
+  const Target reference(mesh);
   for (const double unit : {1e-6, 1e6}) {
     std::vector<Vec3> positions;
     for (const Vec3& x : mesh.positions()) positions.push_back(unit * x);
-    const spatial::Target target(mesh.with_positions(positions));
-    Memory a = anchored_at(reference, Vec3(0.1, 0.2, 1.0));
-    Memory b = anchored_at(target, unit * Vec3(0.1, 0.2, 1.0));
+    const Target target(mesh.with_positions(positions));
+    SoftAnchor a = anchored_at(reference, Vec3(0.1, 0.2, 1.0));
+    SoftAnchor b = anchored_at(target, unit * Vec3(0.1, 0.2, 1.0));
     Random random(51);
     for (int i = 0; i < 500; ++i) {
       const Vec3 motion = 0.02 * Vec3(random.normal(), random.normal(), random.normal());
-      const Step x = live().step({&reference, 1.0}, a, moved(a, motion), soft());
-      const Step y = live().step({&target, 1.0 / unit}, b, moved(b, unit * motion), soft());
+      const LiveStep x = mimicry_live({reference, 1.0}, a, moved(a, motion), soft());
+      const LiveStep y = mimicry_live({target, 1.0 / unit}, b, moved(b, unit * motion), soft());
       ASSERT_EQ(x.answer, y.answer) << unit << " " << i;
       ASSERT_LT((y.position / unit - x.position).norm(), 1e-10) << unit << " " << i;
       a = x.memory;
@@ -225,19 +224,18 @@ TEST(MimicryLive, UnitsDoNotMatter) {
 }
 
 TEST(MimicryLive, SameBitsAndNoAllocation) {
-  const spatial::Target target(make_noisy_cube(16, 0.2, true, 7));
-  const Canvas canvas{&target};
-  const TechniqueInfo& technique = live();
-  std::vector<Step> first;
+  const Target target(make_noisy_cube(16, 0.2, true, 7));
+  const Canvas canvas{target};
+  std::vector<LiveStep> first;
   first.reserve(2000);
   bool walked = false;
   for (const bool again : {false, true}) {
     Random random(61);
-    Memory memory = anchored_at(target, Vec3(0.1, 0.2, 1.0));
+    SoftAnchor memory = anchored_at(target, Vec3(0.1, 0.2, 1.0));
     const long before = test::allocation_count();
     for (std::size_t i = 0; i < 2000; ++i) {
       const Vec3 motion = 0.03 * Vec3(random.normal(), random.normal(), random.normal());
-      const Step step = technique.step(canvas, memory, moved(memory, motion), soft());
+      const LiveStep step = mimicry_live(canvas, memory, moved(memory, motion), soft());
       memory = step.memory;
       walked = walked || step.answer == Answer::section;
       if (!again) {
@@ -253,34 +251,35 @@ TEST(MimicryLive, SameBitsAndNoAllocation) {
 }
 
 TEST(SoftAnchor, WhatIsCarriedFadesAndIsLimited) {
-  const spatial::Target target(make_grid(8));
-  const Memory memory = anchored_at(target, Vec3(0.1, 0.1, 0));
+  const Target target(make_grid(8));
+  const SoftAnchor memory = anchored_at(target, Vec3(0.1, 0.1, 0));
   // 1 mm per unit, so that the first motion is one part; the limit of 6 mm is 6 units.
-  const Canvas canvas{&target, 0.001};
-  const Step up = live().step(canvas, memory, moved(memory, Vec3(0, 0, 0.3)), soft());
+  const Canvas canvas{target, 0.001};
+  const LiveStep up = mimicry_live(canvas, memory, moved(memory, Vec3(0, 0, 0.3)), soft());
   const double step_fade = std::exp(-0.5 / 90 / 0.12);  // the second half of the step's
   EXPECT_LT((up.memory.rest - step_fade * Vec3(0, 0, 0.3)).norm(), 1e-13);
-  const Step later = live().step(canvas, up.memory, moved(up.memory, Vec3::Zero(), 0.24), soft());
+  const LiveStep later =
+      mimicry_live(canvas, up.memory, moved(up.memory, Vec3::Zero(), 0.24), soft());
   EXPECT_LT((later.memory.rest - std::exp(-2.0) * up.memory.rest).norm(), 1e-13);
-  Memory far = up.memory;
+  SoftAnchor far = up.memory;
   for (int i = 0; i < 5; ++i)
-    far = live().step(canvas, far, moved(far, Vec3(0, 0, 9.0)), soft()).memory;
+    far = mimicry_live(canvas, far, moved(far, Vec3(0, 0, 9.0)), soft()).memory;
   EXPECT_LT((far.rest - Vec3(0, 0, 6.0)).norm(), 1e-13);
-  const Step off = live().step(canvas, memory, moved(memory, Vec3(0, 0, 1.0)), {});
+  const LiveStep off = mimicry_live(canvas, memory, moved(memory, Vec3(0, 0, 1.0)), {});
   EXPECT_EQ(off.memory.rest, Vec3::Zero());
 }
 
 TEST(SoftAnchor, FrameRatesFrom30To240HzEndWithinAMillimetre) {
   for (const std::string_view shape : {"sphere", "torus", "rounded-cube", "trefoil", "hand"}) {
-    const spatial::Target target(make_shape(shape));
-    for (const stroke::Intention& curve : study::intended_curves(shape, target)) {
-      study::SimulationOptions options;
+    const Target target(make_shape(shape));
+    for (const Intention& curve : intended_curves(shape, target)) {
+      SimulationOptions options;
       options.rate_hz = 720;
-      auto stroke = study::simulate(target, curve, placed(shape), options, 9);
+      auto stroke = simulate(target, curve, placed(shape), options, 9);
       // All rates see the first frame, whose spray hits, and the last one.
       const auto steps = draw(target, stroke);
       const auto waiting = std::find_if(steps.begin(), steps.end(),
-                                        [](const Step& s) { return s.answer != Answer::miss; });
+                                        [](const LiveStep& s) { return s.answer != Answer::miss; });
       stroke.frames.erase(stroke.frames.begin(), stroke.frames.begin() + (waiting - steps.begin()));
       stroke.frames.resize((stroke.frames.size() - 1) / 24 * 24 + 1);
       const Vec3 reference = draw(target, stroke, soft(), 8).back().position;  // 90 Hz
@@ -294,4 +293,4 @@ TEST(SoftAnchor, FrameRatesFrom30To240HzEndWithinAMillimetre) {
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -9,7 +9,7 @@
 
 #include "technique/cubic_roots.h"
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 TEST(CubicRoots, FindsWhatTheCoefficientsWereMadeFrom) {
@@ -148,4 +148,4 @@ TEST(NormalFoot, NeedlesGiveNoneOrASoundOne) {
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

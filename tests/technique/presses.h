@@ -5,15 +5,15 @@
 #include <mimicry/base/random.h>
 #include <mimicry/technique/technique.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 
 /// Presses at what is seen from eyes around the target: the point under the pointer and its ray.
 struct Press {
   Vec3 eye, direction;
-  spatial::RayHit hit;
+  RayHit hit;
 };
 
-inline std::vector<Press> presses(const spatial::Target& target, int count, std::uint64_t seed) {
+inline std::vector<Press> presses(const Target& target, int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Press> all;
   const Vec3 centre = target.bounding_box().center();
@@ -29,8 +29,8 @@ inline std::vector<Press> presses(const spatial::Target& target, int count, std:
   return all;
 }
 
-inline stroke::Frame frame_of(const Press& press, const Vec3& pen, double time_s = 0.0) {
-  stroke::Frame frame;
+inline Frame frame_of(const Press& press, const Vec3& pen, double time_s = 0.0) {
+  Frame frame;
   frame.time_s = time_s;
   const Quat turn = Quat::FromTwoVectors(-Vec3::UnitZ(), press.direction);
   frame.head = {press.eye, turn};
@@ -43,4 +43,4 @@ inline bool starts_at_the_pen(const TechniqueInfo& info) {
   return !info.needs_bake && info.name != "head-centric";
 }
 
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -8,7 +8,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/technique/technique.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 using testing::HasSubstr;
@@ -36,17 +36,17 @@ TEST(Registry, UnknownNameIsAnsweredWithTheList) {
 TEST(Registry, DefaultsOfOptionsAreLegalAndCanBeSet) {
   for (const TechniqueInfo& info : techniques())
     for (const OptionInfo& option : info.options) {
-      Options options;
-      const auto values = option.get(options);
-      const std::vector<double> copy(values.begin(), values.end());
-      EXPECT_NO_THROW(set_option(info, options, option.name, copy)) << info.name << option.name;
+      TechniqueOptions options;
+      const OptionValue usual = option_value(info, option, options);
+      EXPECT_NO_THROW(set_option(info, options, option.name, {usual.begin(), usual.end()}))
+          << info.name << option.name;
+      EXPECT_EQ(option_value(info, option, options), usual) << info.name << option.name;
     }
 }
 
 TEST(Registry, WrongOptionsAreRefusedAndChangeNothing) {
   const TechniqueInfo& spray = find_technique("spraycan");
-  Options options;
-  const Vec3 before = options.nozzle;
+  TechniqueOptions options;
   const std::array<double, 3> down = {0, -1, 0};
   const std::array<double, 3> zero = {0, 0, 0};
   const std::array<double, 3> bad = {0, std::numeric_limits<double>::quiet_NaN(), 1};
@@ -55,10 +55,10 @@ TEST(Registry, WrongOptionsAreRefusedAndChangeNothing) {
   EXPECT_THROW(set_option(spray, options, "nozzle", bad), Error);
   EXPECT_THROW(set_option(spray, options, "muzzle", down), Error);
   EXPECT_THROW(set_option(find_technique("snap"), options, "nozzle", down), Error);
-  EXPECT_EQ(options.nozzle, before);
+  EXPECT_TRUE(options.is_default());
   set_option(spray, options, "nozzle", down);
-  EXPECT_EQ(options.nozzle, Vec3(0, -1, 0));
+  EXPECT_EQ(option_value(spray, spray.options[0], options), OptionValue(down));
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

@@ -9,23 +9,22 @@
 #include <mimicry/mesh/shapes.h>
 #include <mimicry/spatial/target.h>
 
-namespace mimicry::technique {
+namespace mimicry {
 namespace {
 
 // The start is drawn 1e-9 of its face inward.
 constexpr double kInward = 1e-8;
 
-Vec3 walk(const spatial::Target& target, const SurfacePoint& q, const Vec3& motion,
-          const Vec3& normal, double length) {
-  const SurfacePoint end =
-      walk_section(target.mesh(), target.half_edges(), q, motion, normal, length);
+Vec3 walk(const Target& target, const SurfacePoint& q, const Vec3& motion, const Vec3& normal,
+          double length) {
+  const SurfacePoint end = walk_section(target.surface(), q, motion, normal, length);
   EXPECT_GE(end.bary.minCoeff(), 0.0);
   EXPECT_NEAR(end.bary.sum(), 1.0, 1e-12);
   return target.position(end);
 }
 
 TEST(SectionWalk, OnAPlaneItIsAStraightLine) {
-  const spatial::Target target(make_grid(8));
+  const Target target(make_grid(8));
   Random random(21);
   for (int round = 0; round < 500; ++round) {
     // Inner points, points of edges and vertices of the grid; directions along its lines too.
@@ -43,7 +42,7 @@ TEST(SectionWalk, OnAPlaneItIsAStraightLine) {
 }
 
 TEST(SectionWalk, StopsAtTheBoundaryAndStaysWithoutAPlane) {
-  const spatial::Target target(make_grid(8));
+  const Target target(make_grid(8));
   const auto q = target.closest_point(Vec3(0.3, 0.11, 0));
   EXPECT_LT((walk(target, q->surface, Vec3::UnitX(), Vec3::UnitZ(), 5.0) - Vec3(1, 0.11, 0)).norm(),
             kInward);
@@ -53,7 +52,7 @@ TEST(SectionWalk, StopsAtTheBoundaryAndStaysWithoutAPlane) {
 }
 
 TEST(SectionWalk, AroundABoxItComesBack) {
-  const spatial::Target target(make_box(5, 5, 5, Vec3(0.8, 0.8, 0.8)));
+  const Target target(make_box(5, 5, 5, Vec3(0.8, 0.8, 0.8)));
   const auto q = target.closest_point(Vec3(0.1, 0.07, 0.8));
   for (const int rounds : {1, 3})
     EXPECT_LT(
@@ -67,7 +66,7 @@ TEST(SectionWalk, AroundABoxItComesBack) {
 
 TEST(SectionWalk, OnASphereItFollowsTheGreatCircle) {
   const int n = 24;
-  const spatial::Target target(make_sphere(n));
+  const Target target(make_sphere(n));
   const auto q = target.closest_point(Vec3(0.3, 0.4, 1.0));
   const Vec3 normal = q->position.normalized();
   const Vec3 direction = normal.cross(Vec3(1, 2, 0)).normalized();
@@ -82,4 +81,4 @@ TEST(SectionWalk, OnASphereItFollowsTheGreatCircle) {
 }
 
 }  // namespace
-}  // namespace mimicry::technique
+}  // namespace mimicry

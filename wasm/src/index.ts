@@ -18,10 +18,12 @@ export type { Received, TargetImage } from './hand_over.js';
 export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
 export { MimicryError, type Status } from './error.js';
 export type { MeshArrays, MeshFile, MeshInput, MeshReport, ShapeInfo } from './mesh.js';
-export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, Session, type SessionOptions } from './session.js';
+export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, type OptionValue, Session, type SessionOptions } from './session.js';
+export { Geodesics, type SurfacePath } from './geodesics.js';
+export type { SurfacePlaces, SurfacePoints } from './surface_points.js';
 export type { RecordedStroke } from './strokes.js';
 export { Target, type CurveFormat, type SurfaceHit, type TargetOptions } from './target.js';
-export type { TechniqueInfo, TechniqueOption } from './technique.js';
+export type { OptionKind, TechniqueInfo, TechniqueOption } from './technique.js';
 export type { Bytes, Doubles, Integers, WasmSource } from './types.js';
 
 export interface MimicryOptions {

@@ -20,9 +20,12 @@ export const kMissed = 1;
 export const kStill = 2;
 export const kRejected = 3;
 
+/** Of an option (`TechniqueOption`): a boolean may be true or false; a choice is the number of its value. */
+export type OptionValue = number | boolean | ArrayLike<number>;
+
 export interface SessionOptions {
   /** The technique's options by name. */
-  options?: Readonly<Record<string, number | readonly number[]>>;
+  options?: Readonly<Record<string, OptionValue>>;
   /** A frame without a point breaks the curve; otherwise it is bridged, as in the paper. */
   splitAtMisses?: boolean;
   /** Frames whose pen moved less are passed over. */
@@ -53,8 +56,8 @@ export class Session extends Handle {
   }
 
   /** From the next stroke on, as all settings. */
-  setOption(name: string, values: number | ArrayLike<number>): void {
-    const numbers = givenNumbers(typeof values === 'number' ? [values] : values, `option '${name}'`);
+  setOption(name: string, values: OptionValue): void {
+    const numbers = givenNumbers(typeof values === 'number' || typeof values === 'boolean' ? [Number(values)] : values, `option '${name}'`);
     calling(this.m, (args) =>
       check(this.m, this.m._mimicry_session_set_option(this.at, args.put(givenText(name, "an option's name")), args.put(numbers), numbers.length)));
   }

@@ -1,10 +1,12 @@
 import { Curve } from './curve.js';
 import { MimicryError } from './error.js';
 import type { Pointer } from './exports.js';
+import { Geodesics } from './geodesics.js';
 import { givenBytes, givenList, givenNumbers, givenText } from './given.js';
 import { meshReport, withMesh, type MeshInput, type MeshReport } from './mesh.js';
-import { check, Handle, made, takeBytes, textAt, type Module } from './module.js';
+import { calling, check, Handle, made, takeBytes, textAt, type Arguments, type Module } from './module.js';
 import { Session, type SessionOptions } from './session.js';
+import { kSurfacePointBytes, pointsAt, putPlaces, type SurfacePlaces, type SurfacePoints } from './surface_points.js';
 import type { Bytes } from './types.js';
 
 /** A point on a target, model space; one object that the target's next query writes over. */
@@ -24,7 +26,6 @@ const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb', 'o
 
 // A query's two vectors, then a mimicry_surface_point of ten doubles and two integers.
 const kQueryBytes = 6 * 8;
-const kPointBytes = 11 * 8;
 
 export interface TargetOptions {
   /** Join vertices at equal positions at seams (default true); otherwise curves stop there. */
@@ -48,7 +49,7 @@ export class Target extends Handle {
   /** @internal */
   constructor(m: Module, pointer: Pointer, readonly name: string, readonly report: MeshReport, readonly vertexCount: number) {
     super(m, pointer, 'target');
-    this.room = m._malloc(kQueryBytes + kPointBytes);
+    this.room = m._malloc(kQueryBytes + kSurfacePointBytes);
   }
 
   /** @internal */
@@ -114,6 +115,54 @@ export class Target extends Handle {
     h[q + 3] = dx; h[q + 4] = dy; h[q + 5] = dz;
     check(this.m, this.m._mimicry_target_first_hit(this.at, this.room, this.room + 24, this.room + kQueryBytes));
     return this.found();
+  }
+
+  /** The closest points to many: 3 numbers a point. */
+  closestPoints(points: ArrayLike<number>, most = Infinity): SurfacePoints {
+    const numbers = givenNumbers(points, 'the points', { per: 3 });
+    return this.queried(numbers.length / 3, (args, out) =>
+      this.m._mimicry_target_closest_points(this.at, args.put(numbers), numbers.length / 3, most, out));
+  }
+
+  /** The first points on many rays: 3 numbers each. */
+  firstHits(origins: ArrayLike<number>, directions: ArrayLike<number>): SurfacePoints {
+    const from = givenNumbers(origins, 'the origins', { per: 3 });
+    const to = givenNumbers(directions, 'the directions', { count: from.length });
+    return this.queried(from.length / 3, (args, out) =>
+      this.m._mimicry_target_first_hits(this.at, args.put(from), args.put(to), from.length / 3, out));
+  }
+
+  /** The smooth closest points to many, of a target with its embedding; where there are none, closest points. */
+  smoothClosestPoints(points: ArrayLike<number>): SurfacePoints {
+    const numbers = givenNumbers(points, 'the points', { per: 3 });
+    return this.queried(numbers.length / 3, (args, out) =>
+      this.m._mimicry_target_smooth_closest_points(this.at, args.put(numbers), numbers.length / 3, 0, out, 0));
+  }
+
+  private queried(count: number, query: (args: Arguments, out: Pointer) => number): SurfacePoints {
+    return calling(this.m, (args) => {
+      const out = args.room(kSurfacePointBytes * count);
+      check(this.m, query(args, out));
+      return pointsAt(this.m, out, count);
+    });
+  }
+
+  /** Exact distances on the surface from the nearest of some points, within a radius (model units). Blocks: seconds on large meshes. */
+  geodesics(sources: SurfacePlaces, radius = Infinity): Geodesics {
+    const m = this.m;
+    return new Geodesics(m, made(m, (args, out) => {
+      const { at, count } = putPlaces(m, args, sources, 'the sources');
+      return m._mimicry_geodesics_create(this.at, at, count, radius, 0, 0, out);
+    }), this.vertexCount);
+  }
+
+  /**
+   * Moves the mesh's vertices: 3 numbers each. Sessions go on with the moved surface, curves stay where they were. Not of a target
+   * that was given an embedding, which is of one shape.
+   */
+  updatePositions(positions: ArrayLike<number>): void {
+    const numbers = givenNumbers(positions, 'the positions', { per: 3 });
+    calling(this.m, (args) => check(this.m, this.m._mimicry_target_update_positions(this.at, args.put(numbers), numbers.length / 3)));
   }
 
   private found(): SurfaceHit | null {

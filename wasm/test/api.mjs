@@ -32,8 +32,40 @@ test('lists techniques and shapes', () => {
   assert.ok(live.description.length > 10);
   const nozzle = live.options.find((o) => o.name === 'nozzle');
   assert.deepEqual(nozzle.defaults.map((x) => x + 0), [0, 0, -1]);
+  assert.deepEqual([nozzle.kind, nozzle.choices], ['direction', []]);
+  assert.deepEqual([live.title, live.color, live.steering, live.rank], ['Mimicry live', '#009e73', 'moved', 0]);
+  assert.ok(live.sentence.startsWith('Follows your hand'));
+  assert.equal(live.options.find((o) => o.name === 'soft-anchor').kind, 'boolean');
+  assert.deepEqual(mimicry.techniques.filter((t) => t.steering === 'aimed').map((t) => t.name), ['spraycan']);
+  assert.ok(mimicry.techniques.find((t) => t.name === 'mimicry-planar').screenNote.includes('hand'));
   assert.ok(nozzle.lowest < nozzle.highest);
   assert.ok(mimicry.shapes.some((s) => s.name === 'hand' && s.mostResolution > s.leastResolution));
+});
+
+test('finds many points, distances and paths', () => {
+  const target = mimicry.createTarget(mimicry.shape('sphere', 12), 'sphere');
+  const points = target.closestPoints([0, 0, 2, 2, 0, 0, 0, NaN, 0]);
+  assert.deepEqual([...points.faces].map((f) => f >= 0), [true, true, false]);
+  assert.ok(Math.abs(points.positions[2] - 1) < 0.02 && Math.abs(points.distances[0] - 1) < 0.02);
+  const one = target.closestPoint(2, 0, 0);
+  assert.deepEqual([...points.positions.slice(3, 6)], [...one.position]);
+  const hits = target.firstHits([0, 0, 5, 5, 5, 5], [0, 0, -1, 0, 0, 1]);
+  assert.ok(hits.faces[0] >= 0 && hits.faces[1] === -1);
+  const sources = { faces: points.faces.subarray(0, 1), barycentrics: points.barycentrics.subarray(0, 3) };
+  const geodesics = target.geodesics(sources);
+  assert.equal(geodesics.areExact, true);
+  const [quarter] = geodesics.distances({ faces: points.faces.subarray(1, 2), barycentrics: points.barycentrics.subarray(3, 6) });
+  assert.ok(Math.abs(quarter - Math.PI / 2) < 0.02);
+  assert.equal(geodesics.vertexDistances().length, target.vertexCount);
+  const path = geodesics.path(points.faces[1], points.barycentrics.subarray(3, 6));
+  assert.ok(Math.abs(path.length - quarter) < 1e-9 && path.source === 0 && path.positions.length > 12);
+  assert.throws(() => geodesics.distances({ faces: [1e6], barycentrics: [1, 0, 0] }), /point 0/);
+  assert.throws(() => target.geodesics({ faces: [0.5], barycentrics: [1, 0, 0] }), /whole numbers/);
+  assert.throws(() => target.smoothClosestPoints([0, 0, 1]), /bake/);
+  target.updatePositions(Float64Array.from(mimicry.shape('sphere', 12).positions, (x) => 2 * x));
+  assert.ok(Math.abs(target.closestPoint(0, 0, 5).position[2] - 2) < 0.04);
+  assert.throws(() => geodesics.vertexDistances(), /moved/);
+  for (const used of [geodesics, target]) used.dispose();
 });
 
 test('reads meshes and says what they are', () => {

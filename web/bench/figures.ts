@@ -3,6 +3,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { afterAll, beforeAll, it } from 'vitest';
+import { drawMany } from '../test/browser/many_strokes';
 import { torusObj } from '../test/browser/meshes';
 import { Lab, type Opened } from '../test/browser/studio_page';
 
@@ -59,33 +60,9 @@ it('300 strokes', async () => {
     }
     return (performance as unknown as { memory: { usedJSHeapSize: number } }).memory.usedJSHeapSize;
   });
-  const draw = (count: number): Promise<number> => page.evaluate(async (n) => {
-    const { studio, autosave } = window.studio;
-    const frame = new Float64Array(17);
-    frame.set([0, 1.15, 0.3, 0, 0, 0, 1], 1);
-    frame.set([0, 0, 0, 1], 11);
-    frame[15] = 1;
-    frame[16] = -1;
-    for (let curve = 0; curve < n; curve += 1) {
-      const a = 0.3 * studio.state.now.history.drawing.length;
-      studio.beginStroke();
-      for (let i = 0; i < 150; i += 1) {
-        const t = i / 150;
-        frame[0] = i / 90;
-        frame[8] = 0.03 + 0.05 * Math.sin(4 * t + a);
-        frame[9] = 1.08 + 0.06 * Math.cos(3 * t + 1.7 * a);
-        frame[10] = -0.42;
-        studio.addFrame(frame);
-      }
-      studio.endStroke();
-      if (curve % 20 === 19) await autosave.settled();
-    }
-    await autosave.settled();
-    return studio.state.now.history.drawing.length;
-  }, count);
-  await draw(10);
+  await drawMany(page, 10);
   const before = await used();
-  const strokes = await draw(300);
+  const strokes = await drawMany(page, 300);
   say('heap of a stroke of 150 frames, with its arrays', `${(((await used()) - before) / 300 / 1000).toFixed(1)} kB`);
   say(`draw calls of a picture with ${strokes} strokes`, String(await page.evaluate(() => {
     const { renderer, scene, camera } = window.studio.stage;

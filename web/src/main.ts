@@ -1,5 +1,5 @@
 import { Mimicry } from 'mimicry';
-import { App } from './app';
+import { App } from './app/app';
 import { keepOffline } from './offline/register';
 import { NoGraphics, Stage } from './scene/stage';
 

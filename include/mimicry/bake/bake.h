@@ -4,11 +4,7 @@
 #include <mimicry/embedding/embedding.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::bake {
-
-using embedding::BakeOptions;
-using embedding::BakeQuality;
-using embedding::Embedding;
+namespace mimicry {
 
 /// Raised whenever the same mesh and options give another embedding than before: kept bakes of an
 /// earlier revision are made again.
@@ -24,16 +20,16 @@ inline constexpr int kRevision = 4;
 /// sheets, needles, self-intersections, non-manifold edges. `quality` says what came of it; where
 /// the mesh cannot be made to stand in the shell's tetrahedra the shell is a lattice. Throws
 /// Error(invalid_input) for a mesh without area or with vertices that are not finite and for
-/// options out of range (dimension 3 .. 64, samples 10 .. 20,000, offset 1e-3 .. 0.5, or so small
+/// options out of range (dimension 3 .. 8, samples 10 .. 20,000, offset 1e-3 .. 0.5, or so small
 /// that the shell takes more than 400,000 cells and more than 8 a face),
 /// Error(cancelled) when `progress` returns false.
 ///
 /// Stages reported, in this order: shell, (lattice,) samples, distances, mds, ls-mesh, done. The
-/// same bits whatever the number of threads. About 0.2 ms a vertex of the mesh and 20 kB; of
+/// same bits whatever the number of threads. About 0.7 ms a vertex of the mesh and 20 kB; of
 /// messy meshes, at the usual offset or a larger one, about 20 s and 0.5 ms a face on two threads
 /// and 300 MB and 10 kB a face at the most: counts, not clocks, end what would grow beyond
 /// (docs/quality-of-bakes.md has what was measured).
 Embedding bake(const TriangleMesh& mesh, const BakeOptions& options = {}, int threads = 1,
                const ProgressCallback& progress = {});
 
-}  // namespace mimicry::bake
+}  // namespace mimicry

@@ -13,8 +13,8 @@ enum class ErrorKind {
 };
 
 /// The one exception type of the library. The message names the thing, the place and the remedy:
-/// "bunny.obj: 12 edges have 3 or more faces (first: vertices 17-203); repair the mesh or pass
-/// --allow-nonmanifold". A query that finds nothing is a result and never an error.
+/// "strokes.json: stroke 'a': frame 17: the time runs backwards; record it anew". A query that
+/// finds nothing is a result and never an error.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

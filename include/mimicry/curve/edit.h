@@ -5,21 +5,21 @@
 
 #include <mimicry/base/parallel.h>
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/geodesic/local_path.h>
-#include <mimicry/mesh/half_edges.h>
+#include <mimicry/geodesic/paths.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::curve {
+namespace mimicry {
 
 struct Closing {
-  bool closed = false;                                            ///< the curve is closed now
-  geodesic::PathLabel label = geodesic::PathLabel::disconnected;  ///< of the joining piece
+  bool closed = false;                        ///< the curve is closed now
+  PathLabel label = PathLabel::disconnected;  ///< of the joining piece
 };
 
 /// Closes a curve: joins its last point to its first by the shortest path on the surface. The first
 /// point is appended, with frame and time of the last; where the last is the same point already,
 /// only `closed` is set. Leaves a curve unchanged that is closed, has fewer than two points, or
 /// whose ends the surface does not join (label `disconnected`). O(#V) and the path.
-Closing close(ProjectedCurve& curve, const TriangleMesh& mesh, const HalfEdges& half_edges);
+Closing close(ProjectedCurve& curve, const Surface& surface);
 
 struct SmoothOptions {
   double strength = 0.5;  ///< 0 to 1: how far a point moves; 0 changes nothing
@@ -32,11 +32,10 @@ struct SmoothOptions {
 /// lengths of their two pieces; strength 1 goes half the way, which takes out a zigzag at once
 /// (farther would mirror it), 0 none. A curve that is a geodesic stays. Ends of the curve and at
 /// gaps and chords stay; a closed curve has none. Points keep frame, time and pen distance;
-/// vertex_normals (#V by 3, unit) give their new normals. Throws Error(invalid_input) for options
+/// their normals are the surface's. Throws Error(invalid_input) for options
 /// out of range. Three paths a point and iteration. progress hears of every few points, stage
 /// "smooth"; where it returns false Error(cancelled) is thrown.
-ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                      const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
+ProjectedCurve smooth(const ProjectedCurve& curve, const Surface& surface,
                       const SmoothOptions& options, const ProgressCallback& progress = {});
 
 /// The curve with fewer points (Douglas and Peucker 1973, on geodesics): a point goes where it, and
@@ -44,8 +43,7 @@ ProjectedCurve smooth(const ProjectedCurve& curve, const TriangleMesh& mesh,
 /// takes their place. Ends of the curve and at gaps and chords stay. Throws Error(invalid_input)
 /// for a tolerance below 0 or not finite. O(points log points) paths as a rule, and at worst the
 /// square of the points. progress as in `smooth`, stage "simplify".
-ProjectedCurve simplify(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                        const HalfEdges& half_edges, double tolerance,
+ProjectedCurve simplify(const ProjectedCurve& curve, const Surface& surface, double tolerance,
                         const ProgressCallback& progress = {});
 
 /// The open curve of points [first, end), with all that joins them. Throws Error(invalid_input)
@@ -57,11 +55,10 @@ inline constexpr std::size_t kMostResampledPoints = 10'000'000;
 
 /// The curve as `count` points, 2 to kMostResampledPoints, at equal steps of length (`resample`),
 /// joined by shortest paths; broken where a gap lies between two of them. Times and pen distances
-/// are interpolated, a point's frame is that of the last point before it. vertex_normals: #V by 3,
-/// unit. Throws Error(invalid_input) for a count out of range or a curve without points. O(points +
+/// are interpolated, a point's frame is that of the last point before it, its normal the surface's.
+/// Throws Error(invalid_input) for a count out of range or a curve without points. O(points +
 /// crossings) and a path a point. progress as in `smooth`, stage "resample".
-ProjectedCurve resampled(const ProjectedCurve& curve, const TriangleMesh& mesh,
-                         const HalfEdges& half_edges, std::span<const Vec3> vertex_normals,
-                         std::size_t count, const ProgressCallback& progress = {});
+ProjectedCurve resampled(const ProjectedCurve& curve, const Surface& surface, std::size_t count,
+                         const ProgressCallback& progress = {});
 
-}  // namespace mimicry::curve
+}  // namespace mimicry

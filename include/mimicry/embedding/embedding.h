@@ -7,7 +7,7 @@
 #include <mimicry/base/types.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::embedding {
+namespace mimicry {
 
 /// How a bake was asked for.
 struct BakeOptions {
@@ -86,4 +86,4 @@ void sort_for_search(Embedding& embedding);
 /// on every machine. Not cryptographic.
 std::uint64_t content_hash(const TriangleMesh& mesh);
 
-}  // namespace mimicry::embedding
+}  // namespace mimicry

@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include <mimicry/embedding/embedding.h>
-#include <mimicry/phong/phong_surface.h>
-#include <mimicry/spatial/bvh.h>
 #include <mimicry/spatial/target.h>
 
-namespace mimicry::embedding {
+namespace mimicry {
 
 /// How a smooth closest point was found: all but `smooth` are plain closest points.
 enum class ScpLabel : std::uint8_t {
@@ -38,30 +37,28 @@ struct ScpHint {
   Index face = kNone;
 };
 
-/// A place in the shell.
-struct ShellPoint {
-  Index tet = kNone;
-  Eigen::Vector4d bary = Eigen::Vector4d::Zero();  ///< >= 0, sum 1
-};
+class SmoothProjection;
 
 /// Smooth closest points SCP(y) on a target (Arora and Singh 2021, 3.2; Panozzo et al. 2013): y's
 /// place in the shell's tetrahedra, the same combination of their positions in R^8, and its Phong
-/// projection. Queries are const, safe from many threads, allocate nothing and give the same bits
-/// every time. Refers to the target, which must outlive it.
+/// projection. A handle: copies are cheap, and share the embedding and the target. Queries are
+/// const, safe from many threads, allocate nothing and give the same bits every time.
 class SmoothProjector {
  public:
+  /// Holds nothing; it may only be assigned to, and asked whether it holds something.
+  SmoothProjector() = default;
   /// Throws Error(invalid_input) where the embedding is of another mesh or contradicts itself
   /// (sizes, vertex numbers, numbers that are not finite), Error(unsupported) above 8 dimensions.
   /// O(#T + #F log #F).
-  SmoothProjector(Embedding embedding, const spatial::Target& target);
-  SmoothProjector(const SmoothProjector&) = delete;
-  SmoothProjector& operator=(const SmoothProjector&) = delete;
+  SmoothProjector(Embedding embedding, const Target& target);
+
+  explicit operator bool() const { return projection_ != nullptr; }
 
   /// SCP(y), in the mesh's frame and units; nullopt where y is not finite (or beyond 1e60). hint:
   /// where to start; left with where to start for a query nearby.
   std::optional<SmoothPoint> project(const Vec3& y, const ScpOptions& options = {},
                                      ScpHint* hint = nullptr) const;
-  /// The same by the exhaustive Phong projection.
+  /// The same by the exhaustive Phong projection: the oracle of `project`.
   std::optional<SmoothPoint> project_exhaustively(const Vec3& y,
                                                   const ScpOptions& options = {}) const;
 
@@ -71,50 +68,16 @@ class SmoothProjector {
   SmoothPoint weighted_average(std::span<const SurfacePoint> points,
                                std::span<const double> weights, Index face_hint = kNone) const;
 
-  /// y's tetrahedron; of several (on a common face) the one that it lies deepest in; of those of
-  /// several parts of the surface that of the part with the closest point; then the lowest. Where
-  /// it is too flat for coordinates, the nearest that is not, with y drawn into it. tet kNone
-  /// outside the shell. y: finite, below 1e60.
-  ShellPoint locate(const Vec3& y, const ScpHint& hint = {}) const;
-  /// Its position in R^8.
-  phong::Vec8 lift(const ShellPoint& p) const;
-
-  const spatial::Target& target() const { return *target_; }
-  const phong::PhongSurface& surface() const { return surface_; }
-  const Embedding& embedding() const { return embedding_; }
+  const Target& target() const;
+  const Embedding& embedding() const;
+  /// Heap memory held, without the target's.
   std::size_t memory_bytes() const;
 
+  /// For the tests and benchmarks of this library.
+  const SmoothProjection& projection() const { return *projection_; }
+
  private:
-  struct Tetrahedron {
-    using Pack = spatial::NoPack;  // the hierarchy holds numbers only
-
-    const Vec3* positions;
-    std::array<Index, 4> corners;
-
-    const Vec3& corner(std::size_t k) const {
-      return positions[static_cast<std::size_t>(corners[k])];
-    }
-    Eigen::AlignedBox3d box() const;
-    // False where it is too flat for coordinates.
-    bool barycentric(const Vec3& y, Eigen::Vector4d& bary) const;
-    double nearest(const Vec3& y, Eigen::Vector4d& bary) const;
-  };
-
-  Tetrahedron tetrahedron(Index tet) const {
-    return {embedding_.positions.data(), embedding_.tets[static_cast<std::size_t>(tet)]};
-  }
-  // Others may stand in the same place.
-  bool overlaps(Index tet) const { return tet >= shell_.size() - embedding_.overlapping_tets; }
-  ShellPoint of_nearest_part(const Vec3& y, std::span<const ShellPoint> places,
-                             Index face_hint) const;
-  template <class Project>
-  SmoothPoint resolve(const Vec3& y, const ScpOptions& options, ScpHint& hint,
-                      Project&& project) const;
-
-  Embedding embedding_;
-  const spatial::Target* target_;
-  phong::PhongSurface surface_;
-  spatial::Bvh<3, Tetrahedron> shell_;
+  std::shared_ptr<const SmoothProjection> projection_;
 };
 
-}  // namespace mimicry::embedding
+}  // namespace mimicry

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include <mimicry/mesh/crossing.h>
+#include <mimicry/base/parallel.h>
 #include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 struct Source {
   SurfacePoint point;
@@ -24,6 +24,9 @@ struct ExactOptions {
   /// Windows made before the search gives up, 0 for 10,000 and 500 for each face: a bound for
   /// meshes made to break it. Then `exact` is false and distances are upper bounds.
   std::size_t most_windows = 0;
+  /// Told now and then how far the search is; false cancels it with Error(cancelled), after which
+  /// distances are not known before the next `compute`.
+  ProgressCallback progress = {};
 };
 
 /// A shortest path from a source to a point.
@@ -42,12 +45,12 @@ struct ExactPath {
 /// also in the rare case of two cuts, and distances in a sliver that rounding has left without a
 /// window are measured around the ends of its neighbours. Boundary and non-manifold edges are not
 /// crossed, but a vertex where several fans touch is passed from each into the others (unlike
-/// `LocalPathFinder`); faces without area and edges without length are allowed. Refers to mesh and
-/// half_edges, which must outlive it and not change.
+/// `LocalPathFinder`); faces without area and edges without length are allowed. The surface must
+/// not deform between `compute` and what is asked of it.
 class ExactGeodesics {
  public:
   /// O(#V + #F). Throws Error(invalid_input) where a vertex is not finite.
-  ExactGeodesics(const TriangleMesh& mesh, const HalfEdges& half_edges);
+  explicit ExactGeodesics(const Surface& surface);
   ~ExactGeodesics();
   ExactGeodesics(ExactGeodesics&&) noexcept;
   ExactGeodesics& operator=(ExactGeodesics&&) noexcept;
@@ -59,7 +62,7 @@ class ExactGeodesics {
   void compute(const SurfacePoint& source, const ExactOptions& options = {});
 
   /// Model units; kInfinity where no source reaches the vertex, or the search stopped before. The
-  /// vertex is one of the mesh's.
+  /// vertex is one of the mesh's. After `compute`.
   double distance(Index vertex) const;
   /// Distance at any surface point. Throws Error(invalid_input) for one off the mesh. O(windows of
   /// its face's edges).
@@ -79,4 +82,4 @@ class ExactGeodesics {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -4,10 +4,9 @@
 #include <span>
 #include <vector>
 
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/mesh/triangle_mesh.h>
+#include <mimicry/mesh/surface.h>
 
-namespace mimicry::geodesic {
+namespace mimicry {
 
 /// The tangent plane at the centre, and where each vertex of the patch lies in it.
 struct ExponentialPatch {
@@ -29,13 +28,10 @@ struct ExponentialPatch {
 /// that several ways reach (the cut locus) coordinates tear. On any mesh, however bad its faces,
 /// lengths are at least those of the straight lines and at most those of the shortest ways along
 /// edges (that begin with a straight line to a corner of the centre's face), but for rounding: what
-/// leaves these bounds keeps its direction. Refers to its arguments, which must
-/// outlive it.
+/// leaves these bounds keeps its direction.
 class DiscreteExponentialMap {
  public:
-  /// vertex_normals: #V unit normals.
-  DiscreteExponentialMap(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                         std::span<const Vec3> vertex_normals);
+  explicit DiscreteExponentialMap(const Surface& surface);
 
   /// All vertices that are connected to p within `radius` (model units, > 0; infinity: its
   /// component). `x_hint` gives the x axis by its part in the tangent plane; where it has none any
@@ -67,6 +63,7 @@ class DiscreteExponentialMap {
   void reach(Index vertex, const Vec2& place, double key, double bound, Index from);
   void update(Index vertex, Index from);
 
+  Surface surface_;  // keeps alive what the next three refer to
   const TriangleMesh& mesh_;
   const HalfEdges& half_edges_;
   std::span<const Vec3> normals_;
@@ -82,4 +79,4 @@ class DiscreteExponentialMap {
   std::vector<Vec2> places_;
 };
 
-}  // namespace mimicry::geodesic
+}  // namespace mimicry

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <mimicry/base/similarity.h>
+#include <mimicry/base/types.h>
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/mesh/half_edges.h>
 #include <mimicry/mesh/triangle_mesh.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The version of `mimicry-curves` that is written and read (docs/formats.md).
 inline constexpr int kCurvesVersion = 1;
@@ -21,7 +23,7 @@ struct CurveRecord {
   std::string technique;                               ///< the technique's name
   std::map<std::string, std::vector<double>> options;  ///< the technique's, by name
   Similarity model_to_world;
-  curve::ProjectedCurve curve;
+  ProjectedCurve curve;
   /// Of its tube in GLB and PLY files, model units: one for each point, > 0; or empty. Other files
   /// do not keep it.
   std::vector<double> radii = {};
@@ -29,7 +31,7 @@ struct CurveRecord {
   double lift = 0.0;
 };
 
-/// The radii along `curve::polylines`, crossings included: linear in arc length between points.
+/// The radii along `polylines`, crossings included: linear in arc length between points.
 /// Throws Error(invalid_input) where there is not one for each point.
 std::vector<std::vector<double>> polyline_radii(const CurveRecord& record,
                                                 const TriangleMesh& mesh);
@@ -72,4 +74,29 @@ std::string write_curves_obj(const CurveSet& set, const TriangleMesh& mesh,
 /// One row a point, crossings included (columns in docs/formats.md), part and row in drawing order.
 std::string write_curves_csv(const CurveSet& set, const TriangleMesh& mesh);
 
-}  // namespace mimicry::io
+/// A GLB scene: the target, and each curve as a round tube of its colour (one node a curve, named
+/// stroke and technique; parts between gaps are separate tubes). Model units. The target has
+/// normals: its faces stay, and its vertices are split where faces meet at more than 38 degrees.
+/// colors: one per curve, sRGB, 0 to 255. radius: > 0, model units; of curves without radii of
+/// their own.
+std::string write_curves_glb(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors, double radius);
+
+/// The same with line strips (primitives of mode 3) in place of tubes: the curves' own points,
+/// which viewers show one pixel wide. Parts of a single point are left out.
+std::string write_curves_glb_lines(const CurveSet& set, const TriangleMesh& mesh,
+                                   std::span<const std::array<unsigned char, 3>> colors);
+
+/// Binary PLY with the tubes of all curves, `vertex` (x, y, z, nx, ny, nz, red, green, blue, curve)
+/// and `face` (vertex_indices) elements. colors: one per curve, 0 to 255. radius: > 0, model
+/// units; of curves without radii of their own. Throws Error(unsupported) where there are more
+/// vertices than an Index counts.
+std::string write_curves_ply(const CurveSet& set, const TriangleMesh& mesh,
+                             std::span<const std::array<unsigned char, 3>> colors, double radius);
+
+/// Ascii PLY with the curves' own points: `vertex` (x, y, z, red, green, blue, curve) and `edge`
+/// (vertex1, vertex2) elements. Many readers know no edges (docs/formats.md).
+std::string write_curves_ply_lines(const CurveSet& set, const TriangleMesh& mesh,
+                                   std::span<const std::array<unsigned char, 3>> colors);
+
+}  // namespace mimicry

@@ -5,7 +5,7 @@
 
 #include <mimicry/embedding/embedding.h>
 
-namespace mimicry::io {
+namespace mimicry {
 
 /// The version that is written; files of another one are refused.
 inline constexpr std::uint32_t kEmbeddingFileVersion = 2;
@@ -27,13 +27,13 @@ inline constexpr std::uint32_t kEmbeddingFileVersion = 2;
 /// missing or empty. Readers pass over sections that they do not know, and META may grow at its
 /// end. Not a serialisation library's format: with six flat arrays there is nothing to describe,
 /// and a verifier of offsets would still not see a flipped bit.
-std::string write_embedding(const embedding::Embedding& embedding);
+std::string write_embedding(const Embedding& embedding);
 
 /// The embedding that a file's bytes hold. `name` stands in the error messages only. Throws
 /// Error(invalid_input) where the file is not of this format, cut short, damaged (the checksum
 /// differs) or contradicts itself (counts, vertex numbers); Error(unsupported) for another version.
-/// That it belongs to a mesh is checked by `embedding::SmoothProjector`. O(size), about 1 ms for 4
+/// That it belongs to a mesh is checked by `SmoothProjector`. O(size), about 1 ms for 4
 /// MB; memory is that of the arrays, whatever the header claims.
-embedding::Embedding read_embedding(std::string_view bytes, std::string_view name);
+Embedding read_embedding(std::string_view bytes, std::string_view name);
 
-}  // namespace mimicry::io
+}  // namespace mimicry

@@ -7,9 +7,17 @@
 #include <vector>
 
 #include <mimicry/base/types.h>
-#include <mimicry/mesh/surface_point.h>
+#include <mimicry/mesh/attributes.h>
 
 namespace mimicry {
+
+/// A point on a triangle mesh: a face and barycentric coordinates of its three corners, in the
+/// face's corner order; they are >= 0 and sum to 1. Every module speaks of points on the surface in
+/// this one way.
+struct SurfacePoint {
+  Index face = kNone;
+  Vec3 bary = Vec3::Zero();
+};
 
 using Face = std::array<Index, 3>;
 
@@ -58,6 +66,13 @@ class TriangleMesh {
   bool is_connected() const { return is_connected_; }
   void mark_connected() { is_connected_ = true; }
 
+  /// Texture coordinates, colours and labels of faces; null where it carries none. Copies of the
+  /// mesh share them.
+  const std::shared_ptr<const MeshAttributes>& attributes() const { return attributes_; }
+  /// Empty ones are taken for none. Throws Error(invalid_input) where they do not fit the faces.
+  /// O(#F).
+  void set_attributes(std::shared_ptr<const MeshAttributes> attributes);
+
   /// The source held other polygons than triangles.
   bool has_polygons() const { return !polygons_.empty(); }
 
@@ -75,10 +90,10 @@ class TriangleMesh {
   /// Writes new positions in place; for the owner of a target that deforms.
   void set_positions(std::span<const Vec3> positions);
 
-  /// Heap memory held.
+  /// Heap memory held, that of the attributes included.
   std::size_t memory_bytes() const {
     return positions_.capacity() * sizeof(Vec3) + faces_.capacity() * sizeof(Face) +
-           polygons_.capacity() * sizeof(Index);
+           polygons_.capacity() * sizeof(Index) + (attributes_ ? attributes_->memory_bytes() : 0);
   }
 
  private:
@@ -86,6 +101,7 @@ class TriangleMesh {
   std::vector<Face> faces_;
   std::vector<Index> polygons_;
   std::shared_ptr<const MeshSource> source_;
+  std::shared_ptr<const MeshAttributes> attributes_;
   bool is_connected_ = false;
 };
 

@@ -2,14 +2,15 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <memory>
+#include <vector>
 
-#include <mimicry/base/similarity.h>
-#include <mimicry/curve/curve_builder.h>
+#include <mimicry/base/types.h>
+#include <mimicry/curve/projected_curve.h>
 #include <mimicry/stroke/stroke.h>
 #include <mimicry/technique/technique.h>
 
-namespace mimicry::session {
+namespace mimicry {
 
 /// What becomes of the curve at a frame whose point is undefined.
 enum class MissPolicy : std::uint8_t {
@@ -18,7 +19,7 @@ enum class MissPolicy : std::uint8_t {
 };
 
 struct SessionOptions {
-  technique::Options technique;
+  TechniqueOptions technique = {};  ///< the defaults, or made for the technique
   MissPolicy misses = MissPolicy::connect;
   /// A frame whose pen is nearer than this to the last inked frame's is passed over. World metres.
   double minimum_motion_m = 0.0;
@@ -30,7 +31,7 @@ enum class FrameStatus : std::uint8_t {
   inked,     ///< a point was added to the curve
   missed,    ///< the point is undefined; of an anchored technique that waits for its first hit too
   still,     ///< passed over: less motion than the minimum
-  rejected,  ///< not usable (`stroke::is_usable`), passed over
+  rejected,  ///< not usable (`is_usable`), passed over
 };
 
 /// How many frames of a stroke had each status.
@@ -42,41 +43,50 @@ struct FrameCounts {
 
 /// How a stroke's points were found; misses are counted too.
 struct AnswerCounts {
-  std::array<Index, technique::kAnswerCount> by_answer{};
-  Index& operator[](technique::Answer a) { return by_answer[static_cast<std::size_t>(a)]; }
-  Index operator[](technique::Answer a) const { return by_answer[static_cast<std::size_t>(a)]; }
+  std::array<Index, kAnswerCount> by_answer{};
+  Index& operator[](Answer a) { return by_answer[static_cast<std::size_t>(a)]; }
+  Index operator[](Answer a) const { return by_answer[static_cast<std::size_t>(a)]; }
 };
 
+class CurveBuilder;
+
 /// Draws strokes on one target with one technique, frame by frame. The curve is in model space; a
-/// point once inked never changes. Same frames, same bits. Refers to the canvas, which must outlive
-/// it. Not thread-safe; sessions on the same target are independent of each other.
+/// point once inked never changes. Same frames, same bits. It keeps the target alive, and what was
+/// prepared for it. Not thread-safe; sessions on the same target are independent of each other.
 class StrokeSession {
  public:
-  StrokeSession(const technique::Canvas& canvas, const technique::TechniqueInfo& technique,
+  /// Throws Error(invalid_input) where the options are another technique's, the canvas has no
+  /// target or not the bake that the technique needs. technique: outlives the session, as listed
+  /// ones do.
+  StrokeSession(const Canvas& canvas, const TechniqueInfo& technique,
                 const SessionOptions& options = {});
+  ~StrokeSession();
+  StrokeSession(StrokeSession&&) noexcept;
+  StrokeSession& operator=(StrokeSession&&) noexcept;
 
   /// Starts a stroke; the last one's curve is forgotten.
   void begin(const Similarity& model_to_world);
-  /// frame: world. Never throws. Within `expected_frames` nothing is allocated, but where the curve
-  /// jumps across the object or crosses more than 16 edges a frame. A frame after `end` and before
-  /// the next `begin` is rejected.
-  FrameStatus add(const stroke::Frame& frame);
+  /// frame: world. Throws what the technique throws: none of ours does. Within `expected_frames`
+  /// nothing is allocated, but where the curve jumps across the object or crosses more than 16
+  /// edges a frame. A frame after `end` and before the next `begin` is rejected.
+  FrameStatus add(const Frame& frame);
   /// Ends the stroke; the curve stays readable until the next `begin`.
   void end() { drawing_ = false; }
 
-  const curve::ProjectedCurve& curve() const { return builder_.curve(); }
+  const ProjectedCurve& curve() const;
   const FrameCounts& counts() const { return counts_; }
   const AnswerCounts& answers() const { return answers_; }
-  const technique::TechniqueInfo& technique() const { return *technique_; }
+  const TechniqueInfo& technique() const { return *technique_; }
 
  private:
-  FrameStatus judge(const stroke::Frame& frame);
+  FrameStatus judge(const Frame& frame);
 
-  technique::Canvas canvas_;
-  const technique::TechniqueInfo* technique_;
+  Canvas canvas_;
+  const TechniqueInfo* technique_;
   SessionOptions options_;
-  curve::CurveBuilder builder_;
-  technique::Memory memory_;
+  Block own_options_;
+  TechniqueMemory memory_;
+  std::unique_ptr<CurveBuilder> builder_;
   Similarity model_to_world_;
   FrameCounts counts_;
   AnswerCounts answers_;
@@ -86,9 +96,17 @@ class StrokeSession {
   bool drawing_ = false;
 };
 
-/// A recorded stroke from first frame to last. Throws where the stroke is not usable.
-curve::ProjectedCurve project(const technique::Canvas& canvas,
-                              const technique::TechniqueInfo& technique,
-                              const stroke::Stroke& stroke, const SessionOptions& options = {});
+/// What became of a recorded stroke.
+struct ProjectedStroke {
+  ProjectedCurve curve;
+  std::vector<FrameStatus> statuses;  ///< of each frame
+  FrameCounts counts;
+  AnswerCounts answers;
+};
 
-}  // namespace mimicry::session
+/// Draws a recorded stroke from first frame to last. Throws Error(invalid_input) where the stroke
+/// is not usable.
+ProjectedStroke project(const Canvas& canvas, const TechniqueInfo& technique, const Stroke& stroke,
+                        const SessionOptions& options = {});
+
+}  // namespace mimicry

@@ -5,11 +5,50 @@
 #include <vector>
 
 #include <mimicry/curve/projected_curve.h>
-#include <mimicry/mesh/half_edges.h>
-#include <mimicry/study/motion.h>
-#include <mimicry/study/target_set.h>
+#include <mimicry/mesh/surface.h>
+#include <mimicry/stroke/stroke.h>
+#include <mimicry/study/targets.h>
 
-namespace mimicry::study {
+namespace mimicry {
+
+/// A frame as the measures see it. Positions are *display coordinates*: the model's own, times the
+/// metres per unit at which it was shown; so are the directions, which are unit vectors.
+struct MotionSample {
+  double time_s = 0.0;
+  Vec3 head = Vec3::Zero();
+  Vec3 head_forward = -Vec3::UnitZ();
+  Vec3 head_up = Vec3::UnitY();
+  Vec3 pen = Vec3::Zero();  ///< the controller's position, p_i
+  Vec3 pen_forward = -Vec3::UnitZ();
+  Vec3 pen_up = Vec3::UnitY();
+};
+
+/// All frames of a stroke. The stroke is usable (`require_usable`).
+std::vector<MotionSample> motion_of(const Stroke& stroke);
+
+/// Width of the Gaussian that motion is filtered with, and where it is cut off.
+inline constexpr double kMotionSigma_s = 0.020;
+inline constexpr double kMotionCut_s = 0.050;
+
+/// Motion filtered over its own time stamps: each frame becomes the weighted mean of all frames
+/// within kMotionCut_s, weights exp(-dt^2 / (2 sigma^2)), sum 1. Up vectors stay unit, forward
+/// vectors are made orthogonal to them and unit again; where a mean direction vanishes the frame's
+/// own stays. Of frames with equal times only the last is kept. Times are finite and do not
+/// decrease. O(frames in the window).
+std::vector<MotionSample> filtered(std::span<const MotionSample> motion);
+
+/// How far head and controller moved and turned.
+struct MotionLengths {
+  double head_m = 0.0;
+  double head_rad = 0.0;
+  double pen_m = 0.0;
+  double pen_rad = 0.0;
+};
+
+/// Path lengths as the samples are: sums of the distances between consecutive positions, and of the
+/// full rotation angles (0 to pi) that take each (forward, up) frame into the next. T_h, R_h, T_c
+/// and R_c are those of the filtered motion by L_X (paper, section 6).
+MotionLengths motion_lengths(std::span<const MotionSample> motion);
 
 /// A target curve X as a shape was shown, ready to be compared with. Display coordinates (model
 /// coordinates times metres per unit).
@@ -81,13 +120,24 @@ struct MeasureOptions {
 /// points' `frame` counts in `motion` (kNone: no part in the jumps). motion: display coordinates.
 /// Throws Error(invalid_input) for a curve without points, motion without frames, and a time that
 /// is not finite or runs backwards. About 1 ms for 400 frames.
-Measures measure(const TriangleMesh& mesh, const HalfEdges& half_edges,
-                 const IntendedCurve& intended, const curve::ProjectedCurve& curve,
+Measures measure(const Surface& surface, const IntendedCurve& intended, const ProjectedCurve& curve,
                  std::span<const MotionSample> motion, const MeasureOptions& options = {});
 
 /// The curve with its gaps closed by shortest paths (chords where the surface does not join the
 /// points).
-curve::ProjectedCurve joined(const curve::ProjectedCurve& curve, const TriangleMesh& mesh,
-                             const HalfEdges& half_edges);
+ProjectedCurve joined(const ProjectedCurve& curve, const Surface& surface);
 
-}  // namespace mimicry::study
+/// How much a measure changes when a task is repeated.
+struct Consistency {
+  double mean_change = 0.0;   ///< mean |f(i) - f(i')| / f(i); NaN where no pair counts
+  std::size_t used = 0;       ///< pairs in the mean
+  std::size_t dropped = 0;    ///< changes farther than 5 standard deviations from the mean of all
+  std::size_t undefined = 0;  ///< pairs with f(i) not above 0, or a number that is not finite
+};
+
+/// first: f(i) of the strokes that were repeated; repeat: f(i') of their repeats; as many. The mean
+/// and the standard deviation (n - 1) that decide what is dropped are those of all defined changes
+/// (paper, section 6: applied to D_ep and F_g).
+Consistency consistency(std::span<const double> first, std::span<const double> repeat);
+
+}  // namespace mimicry

@@ -12,11 +12,12 @@
 #include <unistd.h>
 
 #include <mimicry/base/error.h>
-#include <mimicry/render/text.h>
 
 #include "cli/interrupt.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
+#include "files/names.h"
+#include "render/text.h"
 
 extern char** environ;
 
@@ -79,7 +80,7 @@ int wait_for(pid_t child) {
 
 void remove_parts(const std::string& folder) {
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+  for (const auto& entry : std::filesystem::directory_iterator(to_path(folder), none))
     if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), none);
 }
 

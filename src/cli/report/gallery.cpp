@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
-#include <mimicry/render/figure.h>
-#include <mimicry/render/palette.h>
-#include <mimicry/render/png.h>
 
 #include "cli/console.h"
-#include "cli/report/drawn_strokes.h"
+#include "lab/drawn_strokes.h"
+#include "render/figure.h"
+#include "render/palette.h"
+#include "render/png.h"
 
 namespace mimicry::cli {
 namespace {
@@ -18,33 +20,8 @@ namespace {
 constexpr render::Color kIntendedThumbnail{1.0, 1.0, 0.97};
 constexpr render::Color kSurfaceColor{0.66, 0.66, 0.68};
 
-// The `count` worst and best strokes of a method that count.
-std::vector<GalleryPicture> picks(const StudyRows& rows, const Summary& summary,
-                                  const std::string& method, const GalleryOptions& options) {
-  std::vector<GalleryPicture> all;
-  for (const StudyRow* row : summary.counted) {
-    const double value = rows.number(*row, options.measure);
-    if (row->method == method && std::isfinite(value)) all.push_back({row, value, false, {}});
-  }
-  std::stable_sort(all.begin(), all.end(), [](const GalleryPicture& a, const GalleryPicture& b) {
-    return a.value > b.value;
-  });
-  const auto count = static_cast<std::size_t>(options.count);
-  std::vector<GalleryPicture> some(all.begin(),
-                                   all.begin() + static_cast<long>(std::min(count, all.size())));
-  for (std::size_t i = std::max(all.size() - std::min(count, all.size()), some.size());
-       i < all.size(); ++i) {
-    some.push_back(all[i]);
-    some.back().best = true;
-  }
-  // The very best stands first among the best.
-  std::reverse(std::find_if(some.begin(), some.end(), [](const auto& p) { return p.best; }),
-               some.end());
-  return some;
-}
-
-std::string draw(const StudyRow& row, DrawnStrokes& strokes, int threads) {
-  const DrawnStroke drawn = strokes.find(row);
+std::string draw(const lab::StudyRow& row, lab::DrawnStrokes& strokes, int threads) {
+  const lab::DrawnStroke drawn = strokes.find(row);
   const TriangleMesh& mesh = drawn.target->mesh();
   const double radius = 0.006 * drawn.target->diagonal();
   render::Scene scene;
@@ -62,11 +39,11 @@ std::string draw(const StudyRow& row, DrawnStrokes& strokes, int threads) {
     tube.camera_weight = weight;
   };
   std::vector<Vec3> pen;
-  for (const stroke::Frame& frame : drawn.stroke.frames)
+  for (const Frame& frame : drawn.stroke.frames)
     pen.push_back(drawn.stroke.model_to_world.inverse_point(frame.controller.position));
   add(std::move(pen), 0.5, render::kStrokeColor, 0.2);
   add(drawn.intended, 0.85, kIntendedThumbnail, 1.0);
-  for (auto& part : curve::polylines(drawn.curve, mesh))
+  for (auto& part : polylines(drawn.curve, mesh))
     add(std::move(part), 1.0, render::technique_color(row.method), 1.0);
   render::RenderOptions options;
   options.width = 440;
@@ -77,24 +54,30 @@ std::string draw(const StudyRow& row, DrawnStrokes& strokes, int threads) {
 
 }  // namespace
 
-Gallery make_gallery(const StudyRows& rows, const Summary& summary, const GalleryOptions& options) {
+std::string method_color(const std::string& method) {
+  const render::Color color = render::technique_color(method);
+  char text[8];
+  const auto byte = [](double c) { return static_cast<unsigned>(std::lround(255 * c)) & 255U; };
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(color.r), byte(color.g), byte(color.b));
+  return text;
+}
+
+Gallery make_gallery(const lab::StudyRows& rows, const lab::Summary& summary,
+                     const GalleryOptions& options) {
   Gallery gallery;
   if (options.count == 0) return gallery;
-  DrawnStrokes strokes(options.sources);
-  std::vector<GalleryPicture> wanted;
-  for (const std::string& method : summary.methods)
-    for (GalleryPicture& pick : picks(rows, summary, method, options)) wanted.push_back(pick);
-  ProgressLine progress("pictures");
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    GalleryPicture& picture = wanted[i];
+  const Monitor monitor = terminal_monitor();
+  lab::DrawnStrokes strokes(options.sources, monitor);
+  const std::vector<lab::StrokePick> picks =
+      lab::pick_strokes(rows, summary, options.measure, options.count);
+  for (std::size_t i = 0; i < picks.size(); ++i) {
+    const lab::StudyRow& row = *picks[i].row;
     try {
-      picture.png = draw(*picture.row, strokes, options.threads);
-      gallery.pictures.push_back(std::move(picture));
+      gallery.pictures.push_back({picks[i], draw(row, strokes, options.threads)});
     } catch (const Error& error) {
-      gallery.problems.push_back(picture.row->method + ", " + picture.row->name() + ": " +
-                                 error.what());
+      gallery.problems.push_back(row.method + ", " + row.name() + ": " + error.what());
     }
-    progress.update(i + 1, wanted.size());
+    monitor.report("pictures", i + 1, picks.size());
   }
   return gallery;
 }

@@ -3,22 +3,20 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/drawn_strokes.h"
-#include "cli/report/summary.h"
+#include "lab/drawn_strokes.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 
 struct GalleryOptions {
   int count = 3;                    ///< worst, and best, strokes of each method; 0: no pictures
   std::string measure = "D_ep_mm";  ///< small is good
-  StrokeSources sources;
+  lab::StrokeSources sources;
   int threads = 0;  ///< 0: as many as the machine has
 };
 
 struct GalleryPicture {
-  const StudyRow* row = nullptr;
-  double value = 0.0;
-  bool best = false;
+  lab::StrokePick pick;
   std::string png;
 };
 
@@ -27,8 +25,12 @@ struct Gallery {
   std::vector<std::string> problems;     ///< strokes without a picture, and why
 };
 
+/// "#d55e00".
+std::string method_color(const std::string& method);
+
 /// Pictures of the strokes that came out worst and best: the stroke in mid-air, the
 /// curve on the shape and, under it, the target curve.
-Gallery make_gallery(const StudyRows& rows, const Summary& summary, const GalleryOptions& options);
+Gallery make_gallery(const lab::StudyRows& rows, const lab::Summary& summary,
+                     const GalleryOptions& options);
 
 }  // namespace mimicry::cli

@@ -4,12 +4,12 @@
 
 #include "cli/comparison_text.h"
 #include "cli/console.h"
-#include "cli/paper_agreement.h"
 #include "cli/report/base64.h"
 #include "cli/report/bundle.h"
-#include "cli/report/figure_data.h"
-#include "cli/report/measure_text.h"
 #include "cli/report/page_style.h"
+#include "lab/columns.h"
+#include "lab/paper_agreement.h"
+#include "lab/report_data.h"
 
 namespace mimicry::cli {
 namespace {
@@ -101,10 +101,10 @@ std::string mark(bool agrees, const std::string& what) {
          (agrees ? "\">✓" : "\">✗") + "</span>";
 }
 
-std::string paper_cells(const study::PaperFigure* paper, const study::Comparison& ours) {
+std::string paper_cells(const PaperFigure* paper, const Comparison& ours) {
   const auto in_cell = [](const std::string& text) { return tag("td class=\"paper\"", text); };
   if (paper == nullptr) return in_cell("") + in_cell("") + in_cell("") + in_cell("");
-  const study::Agreement agreement = study::agreement(ours, *paper);
+  const Agreement agreement = mimicry::agreement(ours, *paper);
   // Its own digits.
   const auto mean = [](double value, double deviation) {
     return fixed(value, value >= 100 ? 0 : 2) + " ± " + fixed(deviation, value >= 100 ? 0 : 2);
@@ -122,13 +122,13 @@ std::string paper_cells(const study::PaperFigure* paper, const study::Comparison
                                              : "our difference has another sign or significance"));
 }
 
-bool is_significant(const study::Comparison& c) {
+bool is_significant(const Comparison& c) {
   return c.pairs > 0 && c.test.p() < 0.05;
 }
 
-std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
+std::string comparison_row(const Comparison& c, const lab::MethodPair& pair,
                            const std::string& group, bool with_paper) {
-  const MeasureText& measure = *measure_text(c.name);
+  const lab::PaperMeasure& measure = *lab::paper_measure(c.name);
   const bool significantly = is_significant(c);
   const auto strong = [significantly](const std::string& text) {
     return significantly ? tag("b", text) : text;
@@ -144,15 +144,15 @@ std::string comparison_row(const study::Comparison& c, const MethodPair& pair,
   html += cell(shown(fixed(c.test.effect_r, 2)));
   html +=
       cell(shown(significant(c.difference.low)) + " to " + shown(significant(c.difference.high)));
-  if (with_paper) html += paper_cells(paper_figure(pair.a, pair.b, group, c.name), c);
+  if (with_paper) html += paper_cells(lab::published_figure(pair.a, pair.b, group, c.name), c);
   return tag("tr", html) + "\n";
 }
 
-std::string comparison_table(const MethodPair& pair, double level) {
-  std::vector<AgreementCount> agreements;
-  AgreementCount all;
+std::string comparison_table(const lab::MethodPair& pair, double level) {
+  std::vector<lab::AgreementCount> agreements;
+  lab::AgreementCount all;
   for (std::size_t g = 0; g < pair.groups.size(); ++g) {
-    agreements.push_back(count_agreement(pair.a, pair.b, pair.groups[g], pair.comparisons[g]));
+    agreements.push_back(lab::count_agreement(pair.a, pair.b, pair.groups[g], pair.comparisons[g]));
     all += agreements.back();
   }
   const bool with_paper = all.rows > 0;
@@ -170,23 +170,22 @@ std::string comparison_table(const MethodPair& pair, double level) {
   }
   std::string body;
   for (std::size_t g = 0; g < pair.groups.size(); ++g) {
-    const PairedGroup& group = pair.groups[g];
+    const lab::PairedGroup& group = pair.groups[g];
     std::string title = tag("b", group_title(group.name)) + ": " + count(group.pairs, "pair");
     if (const auto& rows = pair.comparisons[g]; !rows.empty() && rows.front().participants > 0)
       title += " of " + count(static_cast<std::size_t>(rows.front().participants), "participant");
     if (group.failed > 0) title += ", " + std::to_string(group.failed) + " left out";
     if (group.unpaired > 0) title += ", " + std::to_string(group.unpaired) + " without a partner";
     std::string paper;
-    if (const AgreementCount& agree = agreements[g]; agree.rows > 0)
-      paper = count(static_cast<std::size_t>(group.name == "task tracing"
-                                                 ? study::kPaperTracingPairs
-                                                 : study::kPaperReCreatingPairs),
+    if (const lab::AgreementCount& agree = agreements[g]; agree.rows > 0)
+      paper = count(static_cast<std::size_t>(group.name == "task tracing" ? kPaperTracingPairs
+                                                                          : kPaperReCreatingPairs),
                     "pair") +
               "; agree: means " + std::to_string(agree.means) + ", differences " +
               std::to_string(agree.differences) + " of " + std::to_string(agree.rows);
     body += "<tr class=\"head\"><td colspan=\"9\">" + title + "</td>" +
             (with_paper ? "<td colspan=\"4\" class=\"paper\">" + paper + "</td>" : "") + "</tr>\n";
-    for (const study::Comparison& c : pair.comparisons[g])
+    for (const Comparison& c : pair.comparisons[g])
       body += comparison_row(c, pair, group.name, with_paper);
   }
   return "<div class=\"wide\"><table class=\"comparison\"><thead>" + above + tag("tr", head) +
@@ -210,7 +209,8 @@ std::string section(const std::string& id, const std::string& title, const std::
   return "<section id=\"" + id + "\"><h2>" + title + "</h2>\n" + content + "</section>\n";
 }
 
-std::string introduction(const Summary& summary, const std::vector<RejectedStroke>& rejected) {
+std::string introduction(const lab::Summary& summary,
+                         const std::vector<lab::RejectedStroke>& rejected) {
   const std::size_t strokes = summary.counted.size() + summary.failed.size();
   std::string text = count(strokes, "measured stroke");
   if (summary.participants > 0) text += " of " + count(summary.participants, "participant");
@@ -229,7 +229,7 @@ std::string introduction(const Summary& summary, const std::vector<RejectedStrok
 }
 
 // Says first what a reader must not miss.
-std::string simulation_notice(const Summary& summary) {
+std::string simulation_notice(const lab::Summary& summary) {
   if (summary.simulated == 0) return "";
   const std::size_t strokes = summary.counted.size() + summary.failed.size();
   constexpr std::size_t kMost = 5;
@@ -250,12 +250,12 @@ std::string simulation_notice(const Summary& summary) {
 }
 
 // Of rows in bold, those whose interval spans 0: "T_c (tracing)".
-std::string bold_spanning_zero(const MethodPair& pair) {
+std::string bold_spanning_zero(const lab::MethodPair& pair) {
   std::vector<std::string> rows;
   for (std::size_t g = 0; g < pair.groups.size(); ++g)
-    for (const study::Comparison& c : pair.comparisons[g])
+    for (const Comparison& c : pair.comparisons[g])
       if (is_significant(c) && c.difference.low <= 0 && c.difference.high >= 0)
-        rows.push_back(std::string(measure_text(c.name)->html) + " (" +
+        rows.push_back(std::string(lab::paper_measure(c.name)->html) + " (" +
                        lower_first(group_title(pair.groups[g].name)) + ")");
   if (rows.empty()) return "";
   std::string list;
@@ -268,7 +268,7 @@ std::string bold_spanning_zero(const MethodPair& pair) {
          "\n";
 }
 
-std::string comparisons(const Summary& summary, double level) {
+std::string comparisons(const lab::Summary& summary, double level) {
   if (summary.pairs.empty())
     return tag("p", "There is one technique only: nothing to compare it with.");
   std::string html =
@@ -282,31 +282,31 @@ std::string comparisons(const Summary& summary, double level) {
       "/ √N. "
       "Difference: bootstrap interval (BCa) of the mean difference. The same as <code>mimicry "
       "compare</code>.</p>\n";
-  for (const MethodPair& pair : summary.pairs) {
+  for (const lab::MethodPair& pair : summary.pairs) {
     if (summary.pairs.size() > 1) html += tag("h3", escaped(pair.a) + " and " + escaped(pair.b));
     html += comparison_table(pair, level) + bold_spanning_zero(pair);
   }
   return html;
 }
 
-std::string smoothness(const Summary& summary) {
+std::string smoothness(const lab::Summary& summary) {
   std::string html =
       "<p>A point is a pair of strokes. Below the dashed line the second technique's curve is the "
       "smoother one. Solid: least squares on the logarithms, with its slope and the correlation "
       "r.</p>\n";
-  for (const MethodPair& pair : summary.pairs)
+  for (const lab::MethodPair& pair : summary.pairs)
     if (!pair.scatter.empty())
-      html += plot(scatter_id(pair), "Smoothness of " + pair.b + " over " + pair.a);
+      html += plot(lab::scatter_id(pair), "Smoothness of " + pair.b + " over " + pair.a);
   return html;
 }
 
-std::string jumps(const Summary& summary) {
+std::string jumps(const lab::Summary& summary) {
   std::string html =
       "<p>A step jumps where the curve moves more than five times as far as the hand.</p>\n"
       "<div class=\"wide\"><table><thead><tr><th></th><th>strokes</th><th>strokes with a jump</th>"
       "<th>steps that jump</th><th>largest |Δq| / |Δp|, median</th><th>maximum</th>"
       "<th>gaps a stroke</th></tr></thead><tbody>\n";
-  for (const JumpRate& rate : summary.jumps)
+  for (const lab::JumpRate& rate : summary.jumps)
     html +=
         row({method_label(rate.method), std::to_string(rate.strokes), percent(rate.jumping_strokes),
              std::isfinite(rate.jumping_steps) ? fixed(100 * rate.jumping_steps, 2) + " %" : "-",
@@ -314,7 +314,7 @@ std::string jumps(const Summary& summary) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string filters(const Summary& summary) {
+std::string filters(const lab::Summary& summary) {
   std::string html =
       "<p>The paper's filters: shorter than half of the target curve; a step of the hand above "
       "5 cm; drawn the other way round. Violation: how far the stroke is from a copy of the target "
@@ -326,7 +326,7 @@ std::string filters(const Summary& summary) {
       "<th>&lt; 20 %</th><th>repeats</th><th>change of D<sub>ep</sub></th><th>of F<sub>g</sub></th>"
       "</tr></thead><tbody>\n";
   bool paper = false;
-  for (const FilterRate& rate : summary.filters) {
+  for (const lab::FilterRate& rate : summary.filters) {
     const auto n = [](std::size_t number) { return std::to_string(number); };
     html += row({method_label(rate.method), n(rate.strokes), n(rate.too_short), n(rate.noisy),
                  n(rate.inverted), n(rate.rejected),
@@ -345,7 +345,8 @@ std::string filters(const Summary& summary) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string rejected_list(const Summary& summary, const std::vector<RejectedStroke>& rejected) {
+std::string rejected_list(const lab::Summary& summary,
+                          const std::vector<lab::RejectedStroke>& rejected) {
   if (summary.failed.empty() && rejected.empty()) return tag("p", "No stroke is left out.");
   std::string html =
       "<details" + std::string(summary.failed.size() + rejected.size() <= 30 ? " open" : "") +
@@ -362,18 +363,18 @@ std::string rejected_list(const Summary& summary, const std::vector<RejectedStro
                          tag("td class=\"text reason\"", escaped(reason))) +
            "\n";
   };
-  for (const RejectedStroke& r : rejected)
+  for (const lab::RejectedStroke& r : rejected)
     html += line({r.participant, r.method, r.shape, r.index, "", ""}, r.reason);
-  for (const StudyRow* r : summary.failed)
+  for (const lab::StudyRow* r : summary.failed)
     html += line({r->participant.empty() ? r->stroke : r->participant, r->method, r->shape,
                   r->index, r->curve, r->task},
                  r->failed);
   return html + "</tbody></table></div></details>\n";
 }
 
-std::string pictures(const Summary& summary, const Gallery& gallery,
+std::string pictures(const lab::Summary& summary, const Gallery& gallery,
                      const GalleryOptions& options) {
-  const MeasureText* measure = measure_text(options.measure);
+  const lab::PaperMeasure* measure = lab::paper_measure(options.measure);
   const std::string name = measure != nullptr ? std::string(measure->html) : options.measure;
   const std::string unit = measure != nullptr ? " " + std::string(measure->unit) : "";
   std::string html =
@@ -384,11 +385,11 @@ std::string pictures(const Summary& summary, const Gallery& gallery,
     for (const bool best : {false, true}) {
       std::string images;
       for (const GalleryPicture& picture : gallery.pictures) {
-        if (picture.row->method != method || picture.best != best) continue;
-        const std::string caption =
-            name + " " + significant(picture.value) + unit + ": " + escaped(picture.row->name());
+        if (picture.pick.row->method != method || picture.pick.best != best) continue;
+        const std::string caption = name + " " + significant(picture.pick.value) + unit + ": " +
+                                    escaped(picture.pick.row->name());
         images += "<figure><img alt=\"" +
-                  escaped(picture.row->method + ", " + picture.row->name()) +
+                  escaped(picture.pick.row->method + ", " + picture.pick.row->name()) +
                   "\" src=\"data:image/png;base64," + base64(picture.png) + "\">" +
                   tag("figcaption", caption) + "</figure>\n";
       }
@@ -414,9 +415,10 @@ std::string inside_script(std::string json) {
 
 }  // namespace
 
-std::string write_page(const Summary& summary, const std::vector<RejectedStroke>& rejected,
-                       const Gallery& gallery, const GalleryOptions& gallery_options,
-                       const std::string& figure_data, const PageOptions& options) {
+std::string write_page(const lab::Summary& summary,
+                       const std::vector<lab::RejectedStroke>& rejected, const Gallery& gallery,
+                       const GalleryOptions& gallery_options, const std::string& figure_data,
+                       const PageOptions& options) {
   std::string body, links;
   const auto add = [&](const std::string& id, const std::string& title,
                        const std::string& content) {
@@ -425,14 +427,14 @@ std::string write_page(const Summary& summary, const std::vector<RejectedStroke>
   };
   add("table", "Comparison", comparisons(summary, options.level));
   bool scatter = false;
-  for (const MethodPair& pair : summary.pairs) scatter = scatter || !pair.scatter.empty();
+  for (const lab::MethodPair& pair : summary.pairs) scatter = scatter || !pair.scatter.empty();
   if (scatter) add("smoothness", "Smoothness, pair by pair", smoothness(summary));
   add("distributions", "Distributions",
       "<p>Bars: quartiles (of bars too thin for it, without the line); white line: median; "
       "diamond: mean; thin line: 5 to 95 % of the strokes "
       "that pass the filters.</p>\n" +
-          plot(kBoxesId, "Distributions of the measures"));
-  add("by-shape", "Shape by shape", plot(kShapesId, "Distributions of the measures by shape"));
+          plot(lab::kBoxesId, "Distributions of the measures"));
+  add("by-shape", "Shape by shape", plot(lab::kShapesId, "Distributions of the measures by shape"));
   if (!summary.jumps.empty()) add("jumps", "Jumps", jumps(summary));
   if (!gallery.pictures.empty() || !gallery.problems.empty())
     add("gallery", "Worst and best strokes", pictures(summary, gallery, gallery_options));

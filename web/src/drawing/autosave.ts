@@ -1,8 +1,9 @@
 import type { Curve, Target } from '../engine/core';
 import type { Drawing } from './document';
-import { contentKey, kLastKey, Library, stateKey, type Named, type State, type StoredEntry, type StoredModel } from './library';
 import { forgetLastWords, keepLastWords, type LastWords } from './last_words';
+import { contentKey, kLastKey, Library, stateKey, type Named, type State } from './library';
 import { isTaken, type Shelf } from './shelf';
+import type { StoredEntry, StoredModel } from './stored';
 
 /**
  * Keeps the open drawing, a stroke at a time: what was kept before is not written again. What is to be

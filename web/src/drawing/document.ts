@@ -1,6 +1,6 @@
 import type { Curve } from '../engine/core';
-import type { MirrorAxis } from './symmetry';
 import type { Range } from './kept';
+import type { MirrorAxis } from './symmetry';
 
 export interface InkStyle {
   color: string; // #rrggbb
@@ -93,6 +93,9 @@ export function lastStroke(drawing: Drawing): Drawing {
 export function rootId(id: string): string {
   return id.split('/')[0]!;
 }
+
+/** Writes a frame's width, a factor of the radius, into out[0]: a number that is returned would be an object in every frame. */
+export type Width = (frame: number, out: Float64Array) => void;
 
 /** How wide the ink of a frame is, as a factor of the radius. */
 export function widthOfPressure(pressure: number): number {

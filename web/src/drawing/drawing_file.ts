@@ -1,25 +1,8 @@
 import type { Core, Curve, RecordedStroke, Target } from '../engine/core';
 import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle } from './document';
 import { kFrameSize, kPressure } from './frame';
-import type { Range } from './kept';
-import type { StoredModel } from './library';
 import { recover, type Part, type Recovered } from './recover';
-import type { MirrorAxis } from './symmetry';
-
-/** What a drawing file says of a curve; strokes and curves stand in the file's own two parts. */
-interface Entry {
-  id: string;
-  mirror: MirrorAxis | null;
-  style: InkStyle;
-  kept: readonly Range[];
-}
-
-/** A drawing without its model. */
-export interface DrawingContent {
-  entries: Entry[];
-  strokes: unknown; // mimicry-strokes
-  curves: unknown; // mimicry-curves
-}
+import type { DrawingContent, StoredModel } from './stored';
 
 interface DrawingFile extends DrawingContent {
   format: 'mimicry-drawing';

@@ -1,8 +1,6 @@
-import { kInkStride } from '../scene/tube';
+import { kInkFrame, kInkStarts, kInkStride } from '../engine/core';
 import { rootId, type Drawing, type DrawnCurve } from './document';
 import { without, type Range } from './kept';
-
-const kFrameWord = 6, kStartsWord = 7;
 
 /**
  * The squared distance from a point to what is left of a curve's ink; Infinity where it is not
@@ -13,19 +11,19 @@ function nearestSquared(drawn: DrawnCurve, x: number, y: number, z: number, near
   let best = Infinity;
   for (let i = 0; i < count; i += 1) {
     const at = i * kInkStride;
-    const frame = integers[at + kFrameWord]!;
+    const frame = integers[at + kInkFrame]!;
     if (!keeps(drawn.kept, frame)) continue;
     const ax = floats[at]! - x, ay = floats[at + 1]! - y, az = floats[at + 2]! - z;
     let d = ax * ax + ay * ay + az * az;
     // Ink runs straight from the vertex before: a long step may pass nearer than its ends.
-    if (i > 0 && integers[at + kStartsWord] === 0 && keeps(drawn.kept, integers[at - kInkStride + kFrameWord]!)) {
+    if (i > 0 && integers[at + kInkStarts] === 0 && keeps(drawn.kept, integers[at - kInkStride + kInkFrame]!)) {
       const bx = floats[at - kInkStride]! - floats[at]!, by = floats[at - kInkStride + 1]! - floats[at + 1]!, bz = floats[at - kInkStride + 2]! - floats[at + 2]!;
       const length2 = bx * bx + by * by + bz * bz;
       const t = length2 > 0 ? Math.min(1, Math.max(0, -(ax * bx + ay * by + az * bz) / length2)) : 0;
       // The half that is nearer to the other end is that one's.
       const dx = ax + t * bx, dy = ay + t * by, dz = az + t * bz;
       const across = dx * dx + dy * dy + dz * dz;
-      if (across <= near && t > 0.5) visit?.(integers[at - kInkStride + kFrameWord]!);
+      if (across <= near && t > 0.5) visit?.(integers[at - kInkStride + kInkFrame]!);
       if (across < best && across <= near) best = across;
       if (t <= 0.5) d = Math.min(d, across);
     }

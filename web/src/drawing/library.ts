@@ -1,10 +1,6 @@
-import type { ModelSource } from '../studio';
-import type { DrawingContent } from './drawing_file';
-import type { InkStyle } from './document';
-import type { Range } from './kept';
 import type { LastWords } from './last_words';
 import { isTaken, type Shelf } from './shelf';
-import type { MirrorAxis } from './symmetry';
+import type { DrawingContent, StoredEntry, StoredModel } from './stored';
 
 /*
  * Drawings on the shelf. Each key has one writer: who names a drawing does not write over who draws on it.
@@ -31,23 +27,6 @@ export interface State {
   strokes: number;
   changed_ms: number;
   model: string; // its title
-}
-
-export interface StoredModel {
-  name: string;
-  source: ModelSource;
-  /** How the model was turned to stand upright: a unit quaternion x, y, z, w. */
-  turn?: readonly number[];
-}
-
-/** What is kept of a curve beside its two parts. */
-export interface StoredEntry {
-  id: string;
-  mirror: MirrorAxis | null;
-  style: InkStyle;
-  kept: readonly Range[];
-  strokeKey: string;
-  curveKey: string;
 }
 
 /** A drawing in the list. */
@@ -104,6 +83,10 @@ export class Library {
       model, parts, embedding: (part('embedding') as Uint8Array | undefined) ?? null,
       entries: entriesOf(part('entries')), file: (part('file') as DrawingContent | undefined) ?? null,
     };
+  }
+
+  async modelOf(id: string): Promise<StoredModel | null> {
+    return ((await this.shelf.read(contentKey(id, 'model'))) as StoredModel | undefined) ?? null;
   }
 
   async last(): Promise<string | null> {

@@ -1,7 +1,7 @@
-import { contentKey, Library, newDrawingId, stateKey, type Stored, type StoredEntry, type StoredModel } from './library';
-import type { DrawingContent } from './drawing_file';
-import type { ModelSource } from '../studio';
+import type { ModelSource } from '../engine/loaded_model';
+import { contentKey, Library, newDrawingId, stateKey, type Stored } from './library';
 import { done, openDatabase, type Shelf } from './shelf';
+import type { StoredEntry, StoredModel, DrawingContent } from './stored';
 
 /** Before drawings had names the browser kept the open one, and one that was put away, in this database. */
 const kOldName = 'mimicry-studio';

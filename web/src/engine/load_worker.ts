@@ -1,7 +1,8 @@
 import { Mimicry, type MeshFile } from 'mimicry';
+import { sentence } from '../base/text';
 import type { Curve, MeshArrays, Target, TargetImage } from './core';
-import type { LoadedModel, ModelSource } from '../studio';
 import { bufferNames, packed } from './gltf_files';
+import type { LoadedModel, ModelSource } from './loaded_model';
 import { makeTarget, prepareModel } from './model';
 
 /** What is drawn on: a file, whole or still on the disk, with files that came beside it (a glTF's buffers are among them); a shape; a mesh. */
@@ -116,8 +117,4 @@ async function read(blob: Blob, name: string): Promise<Uint8Array> {
     tell({ stage: `Reading ${name}`, fraction: (0.4 * Math.min(blob.size, at + kSlice)) / blob.size });
   }
   return bytes;
-}
-
-function sentence(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }

@@ -1,7 +1,7 @@
-import { Mimicry, type Core, type Curve, type MeshArrays, type Target } from './core';
 import type { MeshFile } from 'mimicry';
-import type { LoadedModel } from '../studio';
+import { Mimicry, type Core, type Curve, type MeshArrays, type Target } from './core';
 import type { Loaded, LoadNews, LoadOrder, LoadSource } from './load_worker';
+import type { LoadedModel } from './loaded_model';
 import { kMostFileBytes } from './model';
 
 /** What comes with a model that was drawn on before. */

@@ -1,6 +1,6 @@
-import { creasedCorners } from '../scene/creased';
-import type { LoadedModel, ModelSource } from '../studio';
 import type { Core, MeshArrays, MeshReport, Target } from './core';
+import { creasedCorners } from './creased';
+import type { LoadedModel, ModelSource } from './loaded_model';
 import { guessTurn, kAsIs } from './up_axis';
 
 /** Faces that meet at more than this are shown with an edge. */

@@ -1,7 +1,7 @@
 import { bake } from 'mimicry/bake';
-import type { ModelSource } from '../studio';
 import { BakeProgress } from './bake_progress';
 import type { MeshArrays } from './core';
+import type { ModelSource } from './loaded_model';
 
 /** A server that bakes is asked so often how far it is. */
 const kPause_ms = 500;

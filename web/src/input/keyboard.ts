@@ -1,23 +1,49 @@
+import { kInks } from '../drawing/ink_styles';
 import type { Stage } from '../scene/stage';
-import { kInks, resized } from '../settings';
-import type { Studio } from '../studio';
-import type { Actions } from '../ui/actions';
-import { toggleCompare } from '../ui/interface';
+import type { Actions } from '../studio/actions';
+import type { Studio } from '../studio/studio';
+import type { Tools } from '../tools/tools';
 import type { PointerInput } from './pointer_input';
 
 const kTurn_rad = 0.12;
 const kPenStep_px = 6;
 const kPenId = 9901;
 
+type Act = (event: KeyboardEvent, onControl: boolean) => false | void;
+
 /** Keys, and drawing without a pointer: Enter puts the pen down, the arrows move it, Enter lifts it. */
 export class Keyboard {
   private pen: { x: number; y: number } | null = null;
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly stage: Stage, private readonly studio: Studio, private readonly pointer: PointerInput, private readonly actions: Actions, private readonly showHelp: () => void) {
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly stage: Stage, private readonly studio: Studio, private readonly tools: Tools, private readonly pointer: PointerInput, private readonly actions: Actions, private readonly showHelp: () => void) {
+    tools.list.watch((list) => {
+      const taken = list.find(({ key }) => this.keys.has(key));
+      if (taken) throw new Error(`The key ${taken.key} is the page's; give the tool “${taken.name}” another one.`);
+    });
     window.addEventListener('keydown', (event) => this.down(event));
     window.addEventListener('keyup', (event) => this.up(event), true);
     canvas.addEventListener('blur', () => this.lift());
   }
+
+  /** What the page's own keys do; tools have theirs. False: the key is the control's that has the focus. */
+  private readonly keys: ReadonlyMap<string, Act> = new Map<string, Act>([
+    ['c', () => this.studio.toggleCompare()],
+    ['t', () => { document.getElementById('techniques')?.togglePopover(); }],
+    ['m', () => this.studio.set({ mirror: this.studio.settings.mirror === null ? 'x' : null })],
+    ['p', () => this.studio.set({ penPlace: this.studio.settings.penPlace === 'on a plane' ? 'under the pointer' : 'on a plane' })],
+    ['u', ({ shiftKey }) => { this.lift(); this.actions.turnModel(shiftKey ? 'z' : 'x'); }],
+    ['f', () => this.actions.frameModel()],
+    ['[', () => this.tools.resize(1 / 1.15)],
+    [']', () => this.tools.resize(1.15)],
+    ['+', () => this.stage.rig.zoom(1 / 1.15)],
+    ['=', () => this.stage.rig.zoom(1 / 1.15)],
+    ['-', () => this.stage.rig.zoom(1.15)],
+    ['−', () => this.stage.rig.zoom(1.15)],
+    ['?', () => this.showHelp()],
+    ['Enter', (_, onControl) => (onControl ? false : this.pen ? this.lift() : this.put())],
+    ...['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown'].map((arrow) =>
+      [arrow, ({ shiftKey }, onControl) => (onControl ? false : this.arrow(arrow, shiftKey))] satisfies [string, Act]),
+  ]);
 
   private down(event: KeyboardEvent): void {
     const at = event.target instanceof HTMLElement ? event.target : document.body;
@@ -44,37 +70,14 @@ export class Keyboard {
     if (at.closest('select')) return;
     const onCanvas = at === this.canvas || at === document.body;
     const onControl = !onCanvas && at.closest('button, input, [popover], a') !== null;
-    const { studio } = this;
-    const { style, penPlace } = studio.settings;
-    switch (event.key) {
-      case 'd': case 'D': studio.set({ tool: 'draw' }); break;
-      case 'e': case 'E': studio.set({ tool: 'erase curve' }); break;
-      case 'r': case 'R': studio.set({ tool: 'erase part' }); break;
-      case 'c': case 'C': toggleCompare(studio); break;
-      case 't': case 'T': document.getElementById('techniques')?.togglePopover(); break;
-      case 'm': case 'M': studio.set({ mirror: studio.settings.mirror === null ? 'x' : null }); break;
-      case 'p': case 'P': studio.set({ penPlace: penPlace === 'on a plane' ? 'under the pointer' : 'on a plane' }); break;
-      case 'u': case 'U': this.lift(); this.actions.turnModel(event.shiftKey ? 'z' : 'x'); break;
-      case 'f': case 'F': this.actions.frameModel(); break;
-      case '[': studio.set(resized(studio.settings, 1 / 1.15)); break;
-      case ']': studio.set(resized(studio.settings, 1.15)); break;
-      case '+': case '=': this.stage.rig.zoom(1 / 1.15); break;
-      case '-': case '−': this.stage.rig.zoom(1.15); break;
-      case '?': this.showHelp(); break;
-      case 'Enter':
-        if (onControl) return;
-        if (this.pen) this.lift();
-        else this.put();
-        break;
-      case 'ArrowLeft': case 'ArrowRight': case 'ArrowUp': case 'ArrowDown':
-        if (onControl) return;
-        this.arrow(event.key, event.shiftKey);
-        break;
-      default: {
-        const ink = kInks[Number(event.key) - 1];
-        if (!ink) return;
-        studio.set({ style: { ...style, color: ink.color }, tool: 'draw' });
-      }
+    const key = event.key.length === 1 ? latin(event) : event.key;
+    const act = this.keys.get(key), ink = kInks[Number(key) - 1];
+    if (act) {
+      if (act(event, onControl) === false) return;
+    } else if (ink) {
+      this.tools.ink(ink.color);
+    } else if (!this.tools.chooseByKey(key)) {
+      return;
     }
     event.preventDefault();
     this.stage.invalidate();
@@ -112,7 +115,7 @@ export class Keyboard {
     const rect = this.canvas.getBoundingClientRect();
     this.pen = { x: rect.left + (this.stage.split ? rect.width / 4 : rect.width / 2), y: rect.top + rect.height / 2 };
     this.send('pointerdown');
-    if (!this.studio.isDrawing && this.studio.settings.tool === 'draw') {
+    if (!this.pointer.isUsing) {
       this.lift();
       this.actions.say('The model is not in the middle of the window. Arrow keys turn it, F shows all of it.');
     }

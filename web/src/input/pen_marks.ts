@@ -1,9 +1,9 @@
-import { rotate } from '../math/vec';
+import { kInkStride, type Ink } from '../engine/core';
 import { toWorld } from '../math/similarity';
+import { rotate } from '../math/vec';
 import type { Stage } from '../scene/stage';
 import type { ThreeView } from '../scene/three_view';
-import { kInkStride, type Ink } from '../scene/tube';
-import type { Studio } from '../studio';
+import type { Studio } from '../studio/studio';
 
 /** The smallest ring that is seen, metres. */
 const kLeastRing_m = 0.006;

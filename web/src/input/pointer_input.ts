@@ -1,13 +1,16 @@
 import type { Stage } from '../scene/stage';
 import type { ThreeView } from '../scene/three_view';
-import type { Studio } from '../studio';
+import type { Studio } from '../studio/studio';
+import type { Modifier, PenSample, Tool } from '../tools/tool';
+import type { Tools } from '../tools/tools';
 import { fingerAt, Fingers, type Finger } from './fingers';
 import { PenMarks } from './pen_marks';
 import { kOrbitSpeed, PointerRay } from './pointer_ray';
-import { ScreenEraser } from './screen_eraser';
+import { ScreenBrush } from './screen_brush';
 import { ScreenPen } from './screen_pen';
+import type { ScreenUse } from './screen_use';
 
-type Gesture = 'draw' | 'erase' | 'orbit' | 'pan' | 'fingers' | null;
+type Gesture = 'tool' | 'orbit' | 'pan' | 'fingers' | null;
 
 /** A second finger that comes this soon after the first: what began was no stroke. */
 const kTogether_ms = 250;
@@ -23,9 +26,9 @@ const kEraserEnd = 32;
 const kMostNotches = 8, kMostPinch = 30;
 
 /**
- * Mouse, pen and fingers on the canvas. Pressing on the model draws or erases, beside it turns the
+ * Mouse, pen and fingers on the canvas. Pressing on the model uses the tool, beside it turns the
  * view; several fingers, the right or middle button and held keys navigate; the wheel zooms, and
- * moves the pen's plane while it draws. A pen comes before fingers: once one was seen they only
+ * is the tool's first while that is used. A pen comes before fingers: once one was seen they only
  * navigate, and while it draws or is near they are a resting hand and do nothing.
  */
 export class PointerInput {
@@ -38,7 +41,8 @@ export class PointerInput {
   onUndo: () => void = () => undefined;
   onRedo: () => void = () => undefined;
   readonly pen: ScreenPen;
-  private readonly eraser: ScreenEraser;
+  private readonly uses: Readonly<Record<Tool['samples'], ScreenUse>>;
+  private use: ScreenUse; // while the gesture is the tool's
   private readonly ray: PointerRay;
   private readonly marks: PenMarks;
   private readonly fingers: Fingers;
@@ -51,11 +55,12 @@ export class PointerInput {
   private pen_ms = -Infinity; // when it was last near
   private pressed_ms = 0;
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly stage: Stage, view3: ThreeView, private readonly studio: Studio) {
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly stage: Stage, view3: ThreeView, private readonly studio: Studio, private readonly tools: Tools) {
     this.ray = new PointerRay(canvas, stage, studio);
     this.marks = new PenMarks(stage, view3, studio);
     this.pen = new ScreenPen(this.ray, this.marks, stage, view3, studio);
-    this.eraser = new ScreenEraser(this.ray, this.marks, studio);
+    this.uses = { space: this.pen, surface: new ScreenBrush(this.ray, this.marks, studio) };
+    this.use = this.pen;
     this.fingers = new Fingers(this.ray, stage, canvas);
     canvas.addEventListener('pointerdown', (e) => this.down(e));
     canvas.addEventListener('pointermove', (e) => this.move(e));
@@ -67,14 +72,20 @@ export class PointerInput {
     canvas.addEventListener('wheel', (e) => this.wheel(e), { passive: false });
     canvas.addEventListener('contextmenu', (e) => e.preventDefault());
     this.followSafariPinch();
+    studio.state.watch(() => {
+      const { cursor } = tools.now;
+      canvas.style.setProperty('--over-model', cursor.over);
+      canvas.style.setProperty('--pressed', cursor.pressed);
+    });
     window.addEventListener('blur', () => {
       this.navigate = false; // its key may come up elsewhere
       this.release();
     });
   }
 
-  get busy(): boolean {
-    return this.gesture !== null;
+  /** A tool is pressed on the model. */
+  get isUsing(): boolean {
+    return this.gesture === 'tool';
   }
 
   /** Ends what is going on and keeps it. */
@@ -86,7 +97,7 @@ export class PointerInput {
 
   /** Ends what is going on and drops it; false where nothing is. */
   cancel(): boolean {
-    if (this.gesture !== 'draw' && this.gesture !== 'erase') return false;
+    if (!this.isUsing) return false;
     this.give(true);
     this.touches.clear();
     this.marks.hide();
@@ -95,8 +106,7 @@ export class PointerInput {
 
   /** Another gesture takes over: what was drawn or erased is dropped, where it was a mistake, or kept. */
   private give(dropped: boolean): void {
-    if (dropped && this.gesture === 'draw') this.studio.cancelStroke();
-    if (dropped && this.gesture === 'erase') this.studio.cancelErase();
+    if (dropped && this.isUsing) this.use.cancel();
     this.finish();
   }
 
@@ -104,8 +114,7 @@ export class PointerInput {
     const { gesture } = this;
     this.set(null);
     this.active = -1;
-    if (gesture === 'draw') this.pen.release();
-    if (gesture === 'erase') this.studio.endErase();
+    if (gesture === 'tool') this.use.release();
   }
 
   private set(gesture: Gesture): void {
@@ -160,7 +169,7 @@ export class PointerInput {
     this.pen_ms = event.timeStamp;
   }
 
-  /** The first pointer: draws or erases on the model, navigates beside it or where it is told to. */
+  /** The first pointer: uses the tool on the model, navigates beside it or where it is told to. */
   private begin(event: PointerEvent, onlyNavigates: boolean): void {
     this.active = event.pointerId;
     this.activeType = event.pointerType;
@@ -169,13 +178,18 @@ export class PointerInput {
     this.at.y = event.clientY;
     this.stage.rig.jump();
     const end = event.pointerType === 'pen' && (event.button === 5 || (event.buttons & kEraserEnd) !== 0);
-    const held = this.navigate || event.altKey || event.ctrlKey || event.metaKey;
-    if (event.button === 1 || event.shiftKey) this.set('pan');
+    const { now } = this.tools, tool = end ? (now.otherEnd ?? now) : now;
+    const isHeld = (modifier: Modifier, key: boolean): boolean => key && !tool.takes.includes(modifier);
+    const held = this.navigate || isHeld('alt', event.altKey) || isHeld('control', event.ctrlKey || event.metaKey);
+    if (event.button === 1 || isHeld('shift', event.shiftKey)) this.set('pan');
     else if (onlyNavigates || held || (event.button !== 0 && !end)) this.set('orbit');
-    else if ((end || this.studio.settings.tool !== 'draw') && this.eraser.press(event, end)) this.set('erase');
-    else if (!end && this.studio.settings.tool === 'draw' && this.pen.press(event)) this.set('draw');
-    else this.set('orbit');
+    else this.set(this.take(event, tool, end ? 'eraser' : 'tip') ? 'tool' : 'orbit');
     if (held) this.navigated = true;
+  }
+
+  private take(event: PointerEvent, tool: Tool, end: PenSample['end']): boolean {
+    this.use = this.uses[tool.samples];
+    return this.use.press(event, tool, end);
   }
 
   private move(event: PointerEvent): void {
@@ -200,8 +214,7 @@ export class PointerInput {
     const h = this.canvas.clientHeight;
     if (this.gesture === 'orbit') this.stage.rig.orbit((-kOrbitSpeed * dx) / h, (kOrbitSpeed * dy) / h);
     if (this.gesture === 'pan') this.stage.rig.pan(dx / h, dy / h);
-    if (this.gesture === 'draw') this.pen.move(event);
-    if (this.gesture === 'erase') this.eraser.move(event);
+    if (this.gesture === 'tool') this.use.move(event);
     this.at.x = x;
     this.at.y = y;
     this.stage.invalidate();
@@ -232,7 +245,7 @@ export class PointerInput {
       factor = Math.exp(clamp(event.deltaY, kMostPinch) / 100);
     } else {
       const notches = event.deltaY / (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 3 : 100);
-      if (this.gesture === 'draw' && this.pen.wheel(notches)) return;
+      if (this.isUsing && this.use.wheel(notches)) return;
       factor = Math.exp(0.12 * clamp(notches, kMostNotches));
     }
     this.zoomAt(factor, event.clientX, event.clientY);
@@ -256,7 +269,7 @@ export class PointerInput {
     for (const type of ['gesturestart', 'gesturechange']) this.canvas.addEventListener(type, follow);
   }
 
-  /** Where a stroke would start. */
+  /** Where the tool would start. */
   private hover(event: PointerEvent | null): void {
     if (this.stage.renderer.xr.isPresenting) return; // the hand's pen is shown
     if (!event || event.pointerType === 'touch' || !this.studio.target) {
@@ -270,8 +283,7 @@ export class PointerInput {
       this.marks.hide();
       return;
     }
-    const { tool, eraser_m, style } = this.studio.settings;
-    this.marks.at(hit.position, hit.normal, tool === 'draw' ? 2 * style.radius_m : eraser_m);
+    this.marks.at(hit.position, hit.normal, this.tools.now.ring_m(this.studio.settings));
   }
 }
 

@@ -1,7 +1,7 @@
 import { Vector3 } from 'three';
 import { directionToModel, toModel } from '../math/similarity';
 import type { Stage } from '../scene/stage';
-import type { Studio } from '../studio';
+import type { Studio } from '../studio/studio';
 import { makeView } from './screen_frame';
 
 /** Radians a window height. */

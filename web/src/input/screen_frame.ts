@@ -1,9 +1,6 @@
 import { kController, kHead, kPressure, kTime, kTrigger } from '../drawing/frame';
 import { lookRotation } from '../math/vec';
 
-/** Where the pen is while it is drawn with on a screen. */
-export type PenPlace = 'under the pointer' | 'on a plane';
-
 /** How far in front of the surface the plane lies: this part of the distance to the eye, and at most that of the target's diagonal. */
 const kPlaneGap = 0.04, kMostPlaneGap = 0.25;
 /** A step of the wheel moves the plane by this part of the gap. */

@@ -1,12 +1,14 @@
 import { Vector3 } from 'three';
-import { makeFrame } from '../drawing/frame';
+import { kInkStride } from '../engine/core';
 import type { Stage } from '../scene/stage';
 import type { ThreeView } from '../scene/three_view';
-import { kInkStride } from '../scene/tube';
-import type { Studio } from '../studio';
+import type { Studio } from '../studio/studio';
+import type { PenSample, Tool, ToolUse } from '../tools/tool';
 import type { PenMarks } from './pen_marks';
 import type { PointerRay } from './pointer_ray';
-import { PlanePen, screenFrame } from './screen_frame';
+import { PlanePen } from './screen_frame';
+import { ScreenSample } from './screen_sample';
+import type { ScreenUse } from './screen_use';
 
 /**
  * How far the tip stays on the eye's side of what is under the pointer, as a part of the diagonal: on the surface for every technique,
@@ -20,21 +22,23 @@ const kLeap = 0.05;
 /** A stroke whose ink is shorter than this part of the pointer's way is worth a word; of ways that are long enough to tell. */
 const kLittle = 0.5, kWayThatTells_px = 40;
 
-/** Draws with mouse, pen or finger: from press to release each event becomes a frame. */
-export class ScreenPen {
+/** Tools that the pen uses in space: each event becomes a sample, on the surface or on a plane in front of it. */
+export class ScreenPen implements ScreenUse {
   private readonly plane = new PlanePen();
-  private readonly frame = makeFrame();
+  private readonly sample: ScreenSample;
   private readonly tip = new Float64Array(3);
   private readonly lastTip = new Float64Array(3);
   private last: PointerEvent | null = null;
   private away = false; // from the model
-  private time_ms = 0;
   private way_px = 0; // of the pointer, over the model
-  private feelsPressure = false;
+  private tool: Tool | null = null;
+  private use: ToolUse | null = null;
   /** A stroke left little of the pointer's motion. */
   onLittleInk: (technique: string) => void = () => undefined;
 
-  constructor(private readonly ray: PointerRay, private readonly marks: PenMarks, private readonly stage: Stage, private readonly view3: ThreeView, private readonly studio: Studio) {}
+  constructor(private readonly ray: PointerRay, private readonly marks: PenMarks, private readonly stage: Stage, private readonly view3: ThreeView, private readonly studio: Studio) {
+    this.sample = new ScreenSample(ray);
+  }
 
   private get onPlane(): boolean {
     return this.studio.settings.penPlace === 'on a plane';
@@ -45,47 +49,57 @@ export class ScreenPen {
     return this.studio.target!.diagonal * this.studio.state.now.modelToWorld[7]!;
   }
 
-  /** Starts a stroke where the model is under the pointer; false where it is not. */
-  press(event: PointerEvent): boolean {
+  press(event: PointerEvent, tool: Tool, end: PenSample['end']): boolean {
     this.ray.aim(event);
     const hit = this.ray.hit();
     if (!hit) return false;
     this.plane.press(this.ray.view, hit.distance * this.studio.state.now.modelToWorld[7]!, this.diagonal);
-    this.studio.beginStroke();
+    this.sample.end = end;
+    this.tool = tool;
     this.away = false;
-    this.way_px = 0;
-    this.last = null;
-    this.sample(event, event.timeStamp);
-    return true;
+    this.start();
+    this.put(event, event.timeStamp);
+    return this.use !== null;
   }
 
   move(event: PointerEvent): void {
     // All samples since the last event, where the device is faster than the screen.
     const samples = event.getCoalescedEvents?.() ?? [];
-    if (samples.length === 0) this.sample(event, event.timeStamp);
-    else for (const sample of samples) this.sample(sample, sample.timeStamp);
+    if (samples.length === 0) this.put(event, event.timeStamp);
+    else for (const sample of samples) this.put(sample, sample.timeStamp);
   }
 
-  /** Moves the plane that the pen is on; false where it is on none. steps: positive toward the eye. */
+  /** Moves the plane that the pen is on. */
   wheel(steps: number): boolean {
     if (!this.onPlane || !this.last) return false;
     this.plane.wheel(steps);
-    this.sample(this.last, performance.now());
+    this.put(this.last, performance.now());
     return true;
   }
 
   release(): void {
-    if (!this.studio.isDrawing) return; // it was dropped
-    const drawn = this.inkLength_px();
+    const drawn = this.studio.isDrawing ? this.inkLength_px() : Infinity; // it may have been dropped
     const { technique } = this.studio.settings;
-    this.studio.endStroke();
+    this.use?.release();
+    this.use = null;
     if (this.way_px >= kWayThatTells_px && drawn < kLittle * this.way_px) this.onLittleInk(technique);
   }
 
-  private sample(event: PointerEvent, time_ms: number): void {
+  cancel(): void {
+    this.use?.cancel();
+    this.use = null;
+  }
+
+  /** The next sample is the first of a use. */
+  private start(): void {
+    this.use = null;
+    this.way_px = 0;
+    this.last = null;
+  }
+
+  private put(event: PointerEvent, time_ms: number): void {
     const { ray, tip } = this;
     ray.aim(event);
-    this.time_ms = Math.max(this.time_ms, time_ms);
     const { eye, direction } = ray.view;
     const hit = ray.hit();
     if (this.onPlane) {
@@ -101,27 +115,19 @@ export class ScreenPen {
       const along = distance - Math.min(kTipGap * this.diagonal, 0.5 * distance);
       for (let k = 0; k < 3; k += 1) tip[k] = eye[k]! + along * direction[k]!;
       if (this.away && Math.hypot(tip[0]! - this.lastTip[0]!, tip[1]! - this.lastTip[1]!, tip[2]! - this.lastTip[2]!) > kLeap * this.diagonal) {
-        this.studio.endStroke();
-        this.studio.beginStroke();
-        this.way_px = 0;
-        this.last = null;
+        this.use?.release();
+        this.start();
       }
       this.away = false;
       this.lastTip.set(tip);
     }
+    const isFirst = this.last === null;
     if (hit && this.last) this.way_px += Math.hypot(event.clientX - this.last.clientX, event.clientY - this.last.clientY);
     this.last = event;
-    const pen = event.pointerType === 'pen';
-    screenFrame(this.frame, ray.view, tip, this.time_ms / 1000, pen ? this.pressure(event) : -1, pen ? event.tiltX || 0 : 0, pen ? event.tiltY || 0 : 0);
-    this.studio.addFrame(this.frame);
+    this.sample.take(event, tip, time_ms);
+    if (isFirst) this.use = this.tool!.press(this.studio, this.sample);
+    else this.use?.move(this.sample);
     this.marks.atInk(tip, this.onPlane ? kTip_m : 0, this.studio.liveInk);
-  }
-
-  /** 0 to 1; below 0 of pens that do not tell: they report nothing, or 0 while they touch. */
-  private pressure(event: PointerEvent): number {
-    const { pressure } = event;
-    if (pressure > 0) this.feelsPressure = true;
-    return this.feelsPressure && Number.isFinite(pressure) ? Math.min(1, Math.max(0, pressure)) : -1;
   }
 
   /** How long the live ink is in the window. */

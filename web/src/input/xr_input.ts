@@ -1,14 +1,18 @@
-import { kController, kHead, kPressure, kTime, kTrigger, makeFrame } from '../drawing/frame';
-import { toModel, toWorld } from '../math/similarity';
+import { kController, kHead, kPressure, kTime, kTrigger } from '../drawing/frame';
+import { kInks } from '../drawing/ink_styles';
+import { kInkStride } from '../engine/core';
+import { toWorld } from '../math/similarity';
 import { multiply, rotate } from '../math/vec';
 import type { Stage } from '../scene/stage';
 import type { ThreeView } from '../scene/three_view';
-import { kInkStride } from '../scene/tube';
-import { XrHands } from '../scene/xr_hands';
-import { kInks, resized, type Hand } from '../settings';
-import type { Studio } from '../studio';
+import { XrHands, type HandsText } from '../scene/xr_hands';
+import type { Hand } from '../studio/settings';
+import type { Studio } from '../studio/studio';
+import type { Tool } from '../tools/tool';
+import type { Tools } from '../tools/tools';
 import { carryModel, stretchModel } from './grab';
 import { Hysteresis } from './hysteresis';
+import { XrPen } from './xr_pen';
 
 // Buttons of the xr-standard gamepad mapping.
 const kTriggerButton = 0;
@@ -20,9 +24,6 @@ const kSecondButton = 5; // B, Y
 const kStickDead = 0.5;
 /** Thickness changes by this factor a second at full push. */
 const kStickRate = 3;
-/** The pen erases what is this near to its tip; farther away, where it points. */
-const kReach_m = 0.03;
-const kMostEraserSteps = 64;
 /** Where the model stands at first, from the head. */
 const kBelowEyes_m = 0.05, kNearest_m = 0.4, kFarthest_m = 1.2;
 const kLeastScale = 0.1, kMostScale = 20; // of the model's own size
@@ -56,7 +57,7 @@ export class XrInput {
   private session: XRSession | null = null;
   private readonly devices: Record<Hand, Device> = { left: device('left'), right: device('right') };
   readonly hands: XrHands;
-  private readonly frame = makeFrame();
+  private readonly pen: XrPen;
   private readonly model = new Float64Array(8);
   private baseScale = 1;
   /** Where the model stood on the page, and which it was. */
@@ -69,13 +70,12 @@ export class XrInput {
   private readonly spot = new Float64Array(3);
   private readonly normal = new Float64Array(3);
   private readonly axis = new Float64Array(3);
-  private readonly erased = new Float64Array(3); // model space, in the last frame
-  private erasedBefore = false;
   /** Says something that happened; a sentence. */
   onNote: (sentence: string) => void = () => undefined;
   onEnd: () => void = () => undefined;
 
-  constructor(private readonly stage: Stage, private readonly view: ThreeView, private readonly studio: Studio) {
+  constructor(private readonly stage: Stage, private readonly view: ThreeView, private readonly studio: Studio, private readonly tools: Tools) {
+    this.pen = new XrPen(studio);
     this.hands = new XrHands();
     stage.scene.add(this.hands.group);
   }
@@ -107,7 +107,7 @@ export class XrInput {
     this.pageModel = this.studio.state.now.model;
     this.baseScale = this.pagePlace[7]!;
     this.placed = false;
-    this.hands.hint = 'Pull the trigger on the model to draw';
+    this.hinted = true;
     for (const hand of kHands) Object.assign(this.devices[hand], device(hand));
     session.addEventListener('end', () => this.ended());
     session.addEventListener('visibilitychange', () => {
@@ -181,8 +181,7 @@ export class XrInput {
 
   /** Ends what the hands are doing and keeps it. */
   private stop(): void {
-    this.studio.endStroke();
-    this.studio.endErase();
+    this.pen.release();
     for (const hand of kHands) {
       this.devices[hand].trigger.held = false;
       this.devices[hand].squeeze.held = false;
@@ -213,7 +212,7 @@ export class XrInput {
     this.grab(pen, other);
     this.sticks(pen, other, dt_s);
     if (viewer && pen.tracked) {
-      const p = viewer.transform.position, q = viewer.transform.orientation, f = this.frame;
+      const p = viewer.transform.position, q = viewer.transform.orientation, f = this.pen.frame;
       this.lastTime_ms = Math.max(this.lastTime_ms, time_ms);
       f[kTime] = this.lastTime_ms / 1000;
       f[kHead] = p.x; f[kHead + 1] = p.y; f[kHead + 2] = p.z;
@@ -223,16 +222,16 @@ export class XrInput {
       f[kPressure] = -1;
       for (let k = 0; k < 3; k += 1) this.tip[k] = pen.pose[k]!;
       this.point(pen);
-    } else if (this.studio.isDrawing) {
+    } else if (this.pen.used) {
       // The stroke is kept up to here; it does not go on when the controller is seen again.
-      this.studio.endStroke();
-      this.studio.endErase();
+      this.pen.release();
       pen.trigger.held = true;
       this.waiting = true;
       this.onNote('The controller was lost from sight; the stroke was ended and kept.');
     }
     this.view.showTwinInRoom(this.studio.settings.compare !== null, this.studio.state.now.modelToWorld);
-    this.hands.show(pen, other, this.studio.settings);
+    this.hands.show(pen, other, this.studio.settings, this.handsText);
+    if (this.hinted) this.hint();
     this.show(pen);
   }
 
@@ -266,70 +265,48 @@ export class XrInput {
     }
   }
 
-  /** Draws or erases with the trigger. */
+  /** Uses the tool with the trigger. */
   private point(pen: Device): void {
     const edge = pen.trigger.update(pen.value);
-    const { studio } = this;
     if (edge === 'release') this.waiting = false;
     if (edge === 'press' && !this.waiting) {
-      if (studio.settings.tool === 'draw') {
-        studio.beginStroke();
+      if (this.pen.press(this.tools.now)) {
+        this.hinted = false;
         this.hands.hint = null;
         pulse(pen.source, 0.6, 25);
-      } else {
-        this.erasedBefore = false;
-        studio.beginErase();
       }
+    } else if (pen.trigger.held) {
+      this.pen.move();
     }
-    if (studio.isDrawing && pen.trigger.held) studio.addFrame(this.frame);
-    if (pen.trigger.held && !studio.isDrawing && studio.settings.tool !== 'draw') this.erase(pen);
-    if (edge === 'release') {
-      studio.endStroke();
-      studio.endErase();
-    }
+    if (edge === 'release') this.pen.release();
   }
 
-  private erase(pen: Device): void {
-    const place = this.studio.state.now.modelToWorld, target = this.studio.target!;
-    toModel(this.spot, 0, place, pen.pose, 0);
-    const near = target.closestPoint(this.spot[0]!, this.spot[1]!, this.spot[2]!);
-    const radius = this.studio.settings.eraser_m / place[7]!;
-    const at = near && near.distance * place[7]! < kReach_m ? near : this.aim(pen);
-    if (!at) {
-      this.erasedBefore = false;
-      return;
-    }
-    this.normal.set(at.position);
-    // From where it was a frame ago, in steps that leave no gap.
-    if (!this.erasedBefore) this.erased.set(this.normal);
-    const steps = Math.max(1, Math.ceil(Math.hypot(this.normal[0]! - this.erased[0]!, this.normal[1]! - this.erased[1]!, this.normal[2]! - this.erased[2]!) / radius));
-    for (let i = 1; i <= Math.min(steps, kMostEraserSteps); i += 1) {
-      const t = i / Math.min(steps, kMostEraserSteps);
-      this.studio.eraseAt(
-        this.erased[0]! + t * (this.normal[0]! - this.erased[0]!), this.erased[1]! + t * (this.normal[1]! - this.erased[1]!),
-        this.erased[2]! + t * (this.normal[2]! - this.erased[2]!), radius);
-    }
-    this.erased.set(this.normal);
-    this.erasedBefore = true;
+  /** Until the first use the hint beside the pen says what the trigger does. */
+  private hinted = false;
+  private hintOf: Tool | null = null;
+
+  private hint(): void {
+    const { now } = this.tools;
+    if (this.hands.hintVisible && now === this.hintOf) return;
+    this.hintOf = now;
+    this.hands.hint = now.hint.headset;
   }
 
-  /** Where the pen points. */
-  private aim(pen: Device): ReturnType<NonNullable<Studio['target']>['firstHit']> {
-    const place = this.studio.state.now.modelToWorld;
-    toModel(this.spot, 0, place, pen.pose, 0);
-    this.axis[0] = 0; this.axis[1] = 0; this.axis[2] = -1;
-    rotate(this.axis, 0, pen.pose, 3, this.axis, 0);
-    for (let k = 0; k < 3; k += 1) this.normal[k] = pen.pose[k]! + this.axis[k]!;
-    toModel(this.normal, 0, place, this.normal, 0);
-    return this.studio.target?.firstHit(this.spot[0]!, this.spot[1]!, this.spot[2]!,
-      this.normal[0]! - this.spot[0]!, this.normal[1]! - this.spot[1]!, this.normal[2]! - this.spot[2]!) ?? null;
-  }
+  private readonly handsText = (): HandsText => {
+    const { studio, tools } = this, { settings } = studio, tool = tools.now;
+    return {
+      title: tool.caption(studio),
+      second: settings.compare ? `beside: ${studio.techniqueTitle(settings.compare)}` : `${(2000 * tool.size.get(settings)).toFixed(1)} mm`,
+      third: `lower button: symmetry ${settings.mirror ? settings.mirror.toUpperCase() : 'off'} · upper: redo`,
+      nib: tool.color(settings) ?? '#ffffff', ink: settings.style.color,
+    };
+  };
 
   /** The other hand holds the model; both hands turn and scale it. */
   private grab(pen: Device, other: Device): void {
     pen.squeeze.update(pen.source?.gamepad?.buttons[kSqueeze]?.value ?? 0);
     other.squeeze.update(other.source?.gamepad?.buttons[kSqueeze]?.value ?? 0);
-    const penHolds = pen.squeeze.held && pen.tracked && !this.studio.isDrawing;
+    const penHolds = pen.squeeze.held && pen.tracked && !this.pen.used;
     const otherHolds = other.squeeze.held && other.tracked;
     const holds = (penHolds ? 1 : 0) + (otherHolds ? 2 : 0);
     // The first frame of a hold only remembers where the hands are.
@@ -349,7 +326,7 @@ export class XrInput {
       if (!pad) continue;
       const x = pad.axes[2] ?? 0, y = pad.axes[3] ?? 0;
       if (Math.abs(y) > kStickDead && Math.abs(y) > Math.abs(x)) {
-        this.studio.set(resized(this.studio.settings, Math.exp(-y * dt_s * Math.log(kStickRate))));
+        this.tools.resize(Math.exp(-y * dt_s * Math.log(kStickRate)));
       }
       const pushed = Math.abs(x) > 0.7 && Math.abs(x) > Math.abs(y);
       if (pushed && !d.stick) {
@@ -365,7 +342,7 @@ export class XrInput {
         if (d === pen) this.nextInk();
         else this.nextSymmetry();
       }
-      if (this.pushed(d, pad, kStick)) this.nextTool();
+      if (this.pushed(d, pad, kStick)) this.tools.chooseNext();
     }
   }
 
@@ -400,11 +377,6 @@ export class XrInput {
     this.studio.set({ mirror: axes[(axes.indexOf(this.studio.settings.mirror) + 1) % axes.length]! });
   }
 
-  private nextTool(): void {
-    const { tool } = this.studio.settings;
-    this.studio.set({ tool: tool === 'draw' ? 'erase curve' : tool === 'erase curve' ? 'erase part' : 'draw' });
-  }
-
   /** The laser from the tip: to the ink's end while drawing, else to where the spray would land. */
   private show(pen: Device): void {
     if (!pen.tracked || !this.studio.target) {
@@ -413,7 +385,7 @@ export class XrInput {
     }
     const place = this.studio.state.now.modelToWorld;
     const ink = this.studio.liveInk;
-    const ring = Math.max(2 * this.studio.settings.style.radius_m, 0.005);
+    const ring = Math.max((this.pen.used ?? this.tools.now).ring_m(this.studio.settings), 0.005);
     if (ink && ink.count > 0) {
       const at = (ink.count - 1) * kInkStride;
       for (let k = 0; k < 3; k += 1) {
@@ -421,7 +393,7 @@ export class XrInput {
         this.normal[k] = ink.floats[at + 3 + k]!;
       }
     } else {
-      const hit = this.aim(pen);
+      const hit = this.pen.aim();
       if (!hit) {
         this.view.pen.show(this.tip, 0.005, null, this.normal, ring);
         return;

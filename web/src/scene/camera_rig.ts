@@ -1,4 +1,4 @@
-import { PerspectiveCamera, Quaternion, Vector3 } from 'three';
+import { Matrix4, PerspectiveCamera, Quaternion, Vector3 } from 'three';
 
 const kSteepest = (89 / 180) * Math.PI;
 /** Seconds after which a move has been followed to 1/e. */
@@ -22,6 +22,8 @@ export class CameraRig {
   private farthest = 100;
   /** Follows at once. */
   instant = false;
+  /** Someone chose another view than the one that was framed. */
+  isMoved = false;
 
   constructor(readonly camera: PerspectiveCamera) {}
 
@@ -29,11 +31,15 @@ export class CameraRig {
     return this.now.distance;
   }
 
-  /** Shows a ball as large as the window allows, of whose height `free` may be used. yaw and pitch in radians, 0: from +z. */
-  frame(x: number, y: number, z: number, radius: number, yaw: number, pitch: number, free = 1): void {
+  /**
+   * Shows a ball as large as the window allows, of whose height `free` may be used, from no nearer than `least`. yaw and pitch in
+   * radians, 0: from +z.
+   */
+  frame(x: number, y: number, z: number, radius: number, yaw: number, pitch: number, free = 1, least = 0): void {
     const half = (this.camera.fov / 360) * Math.PI;
     const narrow = Math.atan(Math.tan(half) * Math.min(free, this.camera.aspect));
-    Object.assign(this.goal, { yaw, pitch, roll: 0, x, y, z, distance: radius / Math.sin(narrow) });
+    Object.assign(this.goal, { yaw, pitch, roll: 0, x, y, z, distance: Math.max(least, radius / Math.sin(narrow)) });
+    this.isMoved = false;
     this.nearest = radius * 0.15;
     this.farthest = radius * 20;
     this.camera.near = radius * 0.02;
@@ -44,6 +50,7 @@ export class CameraRig {
 
   /** dYaw, dPitch: as seen in the window, whatever the roll. */
   orbit(dYaw: number, dPitch: number): void {
+    this.isMoved = true;
     const c = Math.cos(this.goal.roll), s = Math.sin(this.goal.roll);
     this.goal.yaw += c * dYaw + s * dPitch;
     this.goal.pitch = Math.min(kSteepest, Math.max(-kSteepest, this.goal.pitch + c * dPitch - s * dYaw));
@@ -51,11 +58,13 @@ export class CameraRig {
 
   /** The picture turns by this angle in the window, clockwise. */
   roll(angle: number): void {
+    this.isMoved = true;
     this.goal.roll += angle;
   }
 
   /** dx, dy: parts of the window's height, to the right and down. */
   pan(dx: number, dy: number): void {
+    this.isMoved = true;
     const height = 2 * this.goal.distance * Math.tan((this.camera.fov / 360) * Math.PI);
     right.set(1, 0, 0).applyQuaternion(this.camera.quaternion);
     up.set(0, 1, 0).applyQuaternion(this.camera.quaternion);
@@ -66,6 +75,12 @@ export class CameraRig {
 
   /** factor > 1: away. cx, cy: the point of the window that stays, -1 to 1, right and up. */
   zoom(factor: number, cx = 0, cy = 0): void {
+    this.isMoved = true;
+    this.scale(factor, cx, cy);
+  }
+
+  /** The same, as the window asks. */
+  scale(factor: number, cx = 0, cy = 0): void {
     const before = this.goal.distance;
     const after = Math.min(this.farthest, Math.max(this.nearest, before * factor));
     const half = Math.tan((this.camera.fov / 360) * Math.PI);
@@ -112,6 +127,23 @@ export class CameraRig {
     this.camera.position.z += z;
     this.camera.updateMatrixWorld();
   }
+}
+
+/**
+ * The least distance from `centre` from which all points lie within halfX and halfY (tangents of the angles from the camera's axis)
+ * in a picture that is taken from yaw and pitch. points: x, y, z; toWorld places them. O(#points)
+ */
+export function fittingDistance(points: ArrayLike<number>, toWorld: Matrix4, centre: Vector3, yaw: number, pitch: number, halfX: number, halfY: number): number {
+  const view = new Quaternion().setFromAxisAngle(yAxis, yaw).multiply(new Quaternion().setFromAxisAngle(xAxis, -pitch)).invert();
+  const toView = new Matrix4().makeRotationFromQuaternion(view).multiply(new Matrix4().makeTranslation(-centre.x, -centre.y, -centre.z)).multiply(toWorld);
+  const m = toView.elements;
+  let distance = 0;
+  for (let at = 0; at + 2 < points.length; at += 3) {
+    const px = points[at]!, py = points[at + 1]!, pz = points[at + 2]!;
+    const x = m[0]! * px + m[4]! * py + m[8]! * pz + m[12]!, y = m[1]! * px + m[5]! * py + m[9]! * pz + m[13]!, z = m[2]! * px + m[6]! * py + m[10]! * pz + m[14]!;
+    distance = Math.max(distance, z + Math.abs(x) / halfX, z + Math.abs(y) / halfY);
+  }
+  return distance;
 }
 
 const keys = ['yaw', 'pitch', 'roll', 'distance', 'x', 'y', 'z'] as const;

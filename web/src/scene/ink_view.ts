@@ -1,9 +1,10 @@
 import { Group, Mesh, MeshStandardMaterial } from 'three';
+import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle, type Width } from '../drawing/document';
 import { kPressure, kFrameSize } from '../drawing/frame';
-import { widthOfPressure, type Drawing, type DrawnCurve, type InkStyle } from '../drawing/document';
 import type { Range } from '../drawing/kept';
+import type { Ink } from '../engine/core';
 import { InkBatch, type InkPlace } from './ink_batch';
-import { kRingSides, Tube, type Ink, type Width } from './tube';
+import { kRingSides, Tube } from './tube';
 
 /** Ink is raised by this part of its radius, so that a bit more than half of it shows. */
 const kRaise = 0.25;

@@ -1,7 +1,7 @@
 import {
   BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Quaternion, Sphere, Vector3,
 } from 'three';
-import type { Corners } from './creased';
+import type { Corners } from '../engine/creased';
 
 /** A target as it is shown, with whatever is drawn on it as children in model space. */
 export class ModelView {

@@ -21,6 +21,9 @@ const kFov = 35;
 /** Below this part of the height, the width says how far away the camera stands. */
 const kNarrow = 0.7;
 
+/** Less than this part of the height that controls leave free is too little for a picture. */
+const kLeastFree = 0.25;
+
 /** Why there is no picture: a sentence for people. */
 export class NoGraphics extends Error {}
 
@@ -146,9 +149,9 @@ export class Stage {
   private covered = { top: 0, bottom: 0 };
 
   cover(top: number, bottom: number): void {
-    // A low window is not covered: its controls float over the picture.
-    const most = 0.4 * this.height;
-    this.covered = top + bottom > most ? { top: 0, bottom: 0 } : { top, bottom };
+    // A very low window is not covered: its controls float over the picture.
+    const least = kLeastFree * this.height;
+    this.covered = this.height - top - bottom < least ? { top: 0, bottom: 0 } : { top, bottom };
     this.fitCamera();
   }
 
@@ -162,6 +165,11 @@ export class Stage {
     return 1 - (this.covered.top + this.covered.bottom) / this.height;
   }
 
+  /** Window, halves and what is covered: a view that was framed for others is to be framed anew. */
+  get framing(): string {
+    return [this.width, this.height, this.split, this.covered.top, this.covered.bottom].join();
+  }
+
   private narrow = kNarrow;
 
   private fitCamera(): void {
@@ -169,7 +177,7 @@ export class Stage {
     this.camera.aspect = this.aspect;
     // What is seen of the model stays in sight where the picture becomes narrow (a turned phone, two halves).
     const narrow = Math.min(kNarrow, this.aspect);
-    this.rig.zoom(this.narrow / narrow);
+    this.rig.scale(this.narrow / narrow);
     this.narrow = narrow;
     this.camera.setViewOffset(width, this.height, 0, (this.covered.bottom - this.covered.top) / 2, width, this.height);
     this.invalidate();

@@ -1,12 +1,13 @@
 import { Group } from 'three';
-import type { Drawing, DrawnCurve, InkStyle } from '../drawing/document';
-import type { Curve, Target } from '../engine/core';
-import type { LoadedModel, StudioView } from '../studio';
+import type { Drawing, DrawnCurve, InkStyle, Width } from '../drawing/document';
+import type { Curve, Target, Ink } from '../engine/core';
+import type { LoadedModel } from '../engine/loaded_model';
+import type { StudioView } from '../studio/view';
+import { fittingDistance } from './camera_rig';
 import { InkView } from './ink_view';
 import { ModelView } from './model_view';
 import { PenView } from './pen_view';
 import { kLooks, type Stage } from './stage';
-import type { Ink, Width } from './tube';
 
 /** The studio's picture: the model with its ink, and beside it, when comparing, the model with the replayed stroke. */
 export class ThreeView implements StudioView {
@@ -17,6 +18,7 @@ export class ThreeView implements StudioView {
   private readonly replay: InkView;
   private size = 1;
   private centre: number[] = [0, 0, 0];
+  private points: ArrayLike<number> = []; // of the model
 
   constructor(private readonly stage: Stage) {
     const gl = stage.renderer.getContext() as WebGL2RenderingContext;
@@ -49,6 +51,7 @@ export class ThreeView implements StudioView {
     this.replay.show([]);
     this.size = target.diagonal;
     this.centre = [0, 1, 2].map((k) => (target.min[k]! + target.max[k]!) / 2);
+    this.points = model.corners.positions;
     this.model.show(model.corners, this.centre, this.size / 2);
     this.model.shareWith(this.twin);
     this.stage.invalidate();
@@ -73,13 +76,23 @@ export class ThreeView implements StudioView {
     this.place(modelToWorld);
   }
 
-  /** Looks at the whole model. */
+  /** Looks at the whole model, in what the page's controls leave free. O(#V) */
   frame(modelToWorld: Float64Array, yaw = 0.35, pitch = 0.18): void {
-    const s = modelToWorld;
+    const s = modelToWorld, { camera, rig, aspect, freeHeight } = this.stage;
     const p = this.model.group.localToWorld(this.model.group.position.clone().set(this.centre[0]!, this.centre[1]!, this.centre[2]!));
-    this.stage.camera.aspect = this.stage.aspect;
-    this.stage.rig.frame(p.x, p.y, p.z, (this.size / 2) * s[7]! * 0.9, yaw, pitch, this.stage.freeHeight);
+    camera.aspect = aspect;
+    const half = Math.tan((camera.fov / 360) * Math.PI);
+    const least = fittingDistance(this.points, this.model.group.matrixWorld, p, yaw, pitch, half * aspect, half * freeHeight);
+    rig.frame(p.x, p.y, p.z, (this.size / 2) * s[7]! * 0.9, yaw, pitch, freeHeight, least);
+    this.framedFor = this.stage.framing;
     this.stage.invalidate();
+  }
+
+  private framedFor = '';
+
+  /** Whether it was framed for another window, or other controls, and nobody has moved the view since. */
+  get wantsFraming(): boolean {
+    return !this.stage.rig.isMoved && this.framedFor !== this.stage.framing;
   }
 
   showMirror(axis: 'x' | 'y' | 'z' | null): void {

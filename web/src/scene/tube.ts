@@ -1,16 +1,6 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Sphere, Vector3 } from 'three';
-
-/** Ink as the core hands it out: 8 words of 4 bytes a vertex. */
-export const kInkStride = 8;
-const kFrameWord = 6;
-const kStartsWord = 7;
-
-/** Ink vertices of a curve: position, normal (floats, model space), frame and start flag (integers) over the same memory. */
-export interface Ink {
-  floats: Float32Array;
-  integers: Int32Array;
-  count: number;
-}
+import type { Width } from '../drawing/document';
+import { kInkFrame, kInkStarts, kInkStride, type Ink } from '../engine/core';
 
 export interface TubeStyle {
   radius: number; // model units
@@ -22,8 +12,6 @@ export interface TubeStyle {
 export const kRingSides = 8;
 
 const kFirstRings = 256;
-/** Writes a frame's width into out[0]: a number that is returned would be an object in every frame. */
-export type Width = (frame: number, out: Float64Array) => void;
 
 /** Vertices nearer than this part of the radius to the last ring are passed over. */
 const kLeastStep = 0.15;
@@ -139,20 +127,20 @@ export class Tube {
    */
   append(ink: Ink, width: Width, shown?: (from: number, to: number) => boolean): void {
     if (ink.count <= this.taken) return;
-    let before = this.taken > 0 ? ink.integers[(this.taken - 1) * kInkStride + kFrameWord]! : -1;
+    let before = this.taken > 0 ? ink.integers[(this.taken - 1) * kInkStride + kInkFrame]! : -1;
     let point = before; // frame of the last point: crossings bear the frame that they lead to
-    if (shown) for (let i = this.taken - 1; i >= 0 && point === before; i -= 1) point = ink.integers[i * kInkStride + kFrameWord]!;
+    if (shown) for (let i = this.taken - 1; i >= 0 && point === before; i -= 1) point = ink.integers[i * kInkStride + kInkFrame]!;
     for (let i = this.taken; i < ink.count; i += 1) {
       const at = i * kInkStride;
-      const frame = ink.integers[at + kFrameWord]!;
-      const starts = i === 0 || ink.integers[at + kStartsWord] !== 0;
+      const frame = ink.integers[at + kInkFrame]!;
+      const starts = i === 0 || ink.integers[at + kInkStarts] !== 0;
       if (frame !== before) point = before;
       width(frame, this.width);
       const visible = !shown || (starts ? shown(frame, frame) : shown(point, frame));
       if (!visible) {
         // The piece to here is gone; it may be the start of what is left.
         this.close();
-        const isPoint = i + 1 >= ink.count || ink.integers[at + kInkStride + kFrameWord] !== frame;
+        const isPoint = i + 1 >= ink.count || ink.integers[at + kInkStride + kInkFrame] !== frame;
         if (shown(frame, frame) && isPoint) this.begin(ink.floats, at);
       } else if (starts) {
         this.close();

@@ -1,10 +1,18 @@
 import { CanvasTexture, ConeGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, MeshBasicMaterial, PlaneGeometry } from 'three';
-import type { Settings } from '../settings';
-import { techniqueTitle } from '../ui/technique_panel';
 
 interface Hand {
   pose: Float64Array;
   tracked: boolean;
+}
+
+/** What the card on the other hand says. */
+export interface HandsText {
+  title: string;
+  second: string;
+  third: string;
+  /** Of the nib, and of the dot on the card. */
+  nib: string;
+  ink: string;
 }
 
 /** What is seen of the hands: a pen, a handle, and on it a card that says what the pen does. */
@@ -15,7 +23,7 @@ export class XrHands {
   private readonly nib = new MeshStandardMaterial({ roughness: 0.4 });
   private readonly card = new Card(0.16, 512, 240);
   private readonly hintCard = new Card(0.2, 640, 96);
-  private said: Settings | null = null;
+  private said: object | null = null;
 
   constructor() {
     const body = new MeshStandardMaterial({ color: '#3a3d44', roughness: 0.6 });
@@ -57,22 +65,16 @@ export class XrHands {
     return this.hintCard.mesh.visible;
   }
 
-  show(pen: Hand, other: Hand, settings: Settings): void {
+  /** A card is written when `state`, an object, is another one. */
+  show(pen: Hand, other: Hand, state: object, text: () => HandsText): void {
     place(this.pen, pen);
     place(this.handle, other);
-    if (settings === this.said) return;
-    this.said = settings;
-    this.nib.color.set(settings.tool === 'draw' ? settings.style.color : '#ffffff');
-    const title = settings.tool === 'draw' ? techniqueTitle(settings.technique) : settings.tool === 'erase curve' ? 'Erase curves' : 'Erase parts';
-    const size = settings.tool === 'draw' ? settings.style.radius_m : settings.eraser_m;
-    this.write(title, settings.compare ? `beside: ${techniqueTitle(settings.compare)}` : `${(2000 * size).toFixed(1)} mm`,
-      `lower button: symmetry ${settings.mirror ? settings.mirror.toUpperCase() : 'off'} · upper: redo`, settings.style.color);
-  }
-
-  private write(title: string, second: string, third: string, color: string): void {
-    const { card } = this;
+    if (state === this.said) return;
+    this.said = state;
+    const { card } = this, { title, second, third, nib, ink } = text();
+    this.nib.color.set(nib);
     card.clear();
-    card.dot(70, 80, 34, color);
+    card.dot(70, 80, 34, ink);
     card.line(title, 130, 74, 44, '#fff', 360);
     card.line(second, 130, 126, 36, '#b9bbc0', 360);
     card.line(third, 36, 196, 28, '#b9bbc0', 450);

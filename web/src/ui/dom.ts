@@ -28,9 +28,6 @@ export function icon(path: string): SVGSVGElement {
 export const kIcons = {
   undo: 'M7 4 3 8l4 4M3 8h9a5 5 0 0 1 0 10H8',
   redo: 'm13 4 4 4-4 4M17 8H8a5 5 0 0 0 0 10h4',
-  draw: 'M4 16c2.5-7 5-8.5 6.5-5s3 2.5 5.5-7',
-  eraseCurve: 'M3 17h14M8.5 14 3.8 9.3a1 1 0 0 1 0-1.4l5.1-5.1a1 1 0 0 1 1.4 0l5.9 5.9a1 1 0 0 1 0 1.4L12.3 14zM6.5 5.5l7 7',
-  erasePart: 'M2.5 15c2-5 3.5-6.5 5-5M12.5 12c2 1 3.5-2 5-7M9.2 11.8l2-2M9.5 8.5l3 3',
   compare: 'M10 3v14M3 4.5h14v11H3zM5.3 12.5c.8-3 1.6-3 2.4-2M12.3 12.5c.8-4 1.6-4 2.4-5',
   folder: 'M2.5 5.5a1 1 0 0 1 1-1h4l2 2h7a1 1 0 0 1 1 1v8a1 1 0 0 1-1 1h-13a1 1 0 0 1-1-1z',
   save: 'M10 3v9m0 0 3.5-3.5M10 12 6.5 8.5M3.5 13v3a1 1 0 0 0 1 1h11a1 1 0 0 0 1-1v-3',

@@ -1,5 +1,6 @@
+import { sentence } from '../base/text';
 import type { Listed } from '../drawing/library';
-import { sentence, type Documents } from '../documents';
+import type { Documents } from '../studio/documents';
 import { h, icon, kIcons } from './dom';
 import type { Messages } from './messages';
 

@@ -1,10 +1,13 @@
-import type { Studio } from '../studio';
-import { kExports, type Actions } from './actions';
+import { shapeTitle } from '../engine/loaded_model';
+import type { Actions } from '../studio/actions';
+import type { Studio } from '../studio/studio';
+import type { Tools } from '../tools/tools';
 import { dock } from './dock';
 import { h, icon, kIcons } from './dom';
+import { kExports } from './exports';
 import { helpDialog } from './help';
 import { Messages } from './messages';
-import { orderedTechniques, techniquePicker, techniqueTitle } from './technique_panel';
+import { techniquePicker } from './technique_panel';
 
 export interface Interface {
   messages: Messages;
@@ -14,9 +17,9 @@ export interface Interface {
 }
 
 /** Builds the page around the canvas. */
-export function buildInterface(root: HTMLElement, studio: Studio, actions: Actions): Interface {
+export function buildInterface(root: HTMLElement, studio: Studio, tools: Tools, actions: Actions): Interface {
   const messages = new Messages();
-  const help = helpDialog();
+  const help = helpDialog(tools);
   const button = (path: string, label: string, keys: string, onclick: () => void, className = ''): HTMLButtonElement =>
     h('button', { class: `button ${className}`, type: 'button', 'aria-label': label, title: keys ? `${label} (${keys})` : label, onclick }, icon(path));
   const closing = (act: () => void): EventListener => (event) => {
@@ -28,7 +31,7 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
   const model = h('button', { class: 'button model', type: 'button', popovertarget: 'models', title: 'Choose or open a model' }, modelName, icon(kIcons.chevron));
   const undo = button(kIcons.undo, 'Undo', 'Ctrl Z', () => actions.undo());
   const redo = button(kIcons.redo, 'Redo', 'Ctrl Shift Z', () => actions.redo());
-  const compare = button(kIcons.compare, 'Compare the last stroke with another technique', 'C', () => toggleCompare(studio), 'only-wide');
+  const compare = button(kIcons.compare, 'Compare the last stroke with another technique', 'C', () => studio.toggleCompare(), 'only-wide');
   const frame = button(kIcons.frame, 'Show the whole model', 'F', () => actions.frameModel(), 'only-wide');
   const vr = h('button', { class: 'button', type: 'button', hidden: true, onclick: () => actions.enterXr('immersive-vr') }, icon(kIcons.headset), 'VR');
   const ar = h('button', { class: 'button', type: 'button', hidden: true, onclick: () => actions.enterXr('immersive-ar') }, icon(kIcons.headset), 'AR');
@@ -63,7 +66,7 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
     item(kIcons.folder, 'Open…', 'Ctrl O', () => actions.chooseFiles()), item(kIcons.drawings, 'Drawings…', '', () => actions.showDrawings()), save,
     h('hr', { class: 'hairline' }), h('p', { class: 'sheet-title' }, 'Export'), h('div', { class: 'exports', role: 'group', 'aria-label': 'Export' }, ...exports), h('hr', { class: 'hairline' }),
     h('div', { class: 'rest' }, clear, item(kIcons.turn, 'Turn by 90°', 'U', () => actions.turnModel('x')),
-      item(kIcons.compare, 'Compare techniques', '', () => toggleCompare(studio), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
+      item(kIcons.compare, 'Compare techniques', '', () => studio.toggleCompare(), 'only-narrow'), item(kIcons.frame, 'Show the whole model', '', () => actions.frameModel(), 'only-narrow'),
       headset, theme, item(kIcons.help, 'Help', '', () => help.showModal(), 'only-narrow')));
 
   // Comparing.
@@ -71,9 +74,10 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
   const select = h('select', { 'aria-label': 'Technique to compare with', onchange: () => studio.set({ compare: select.value }) });
   const halves = h('div', { id: 'halves', hidden: true }, left, h('div', { class: 'panel' }, select));
 
-  const hint = h('div', { id: 'hint', class: 'panel', hidden: true }, h('b', {}, 'Press on the model and draw.'), ' Drag beside it to turn.');
+  const hintText = h('b');
+  const hint = h('div', { id: 'hint', class: 'panel', hidden: true }, hintText, ' Drag beside it to turn.');
   const drop = h('div', { id: 'drop', hidden: true }, 'Drop a model, a drawing or recorded strokes');
-  const bottom = h('div', { id: 'bottom' }, ...techniquePicker(studio, actions), ...dock(studio));
+  const bottom = h('div', { id: 'bottom' }, ...techniquePicker(studio, actions), ...dock(studio, tools));
   root.append(top, models, menu, halves, hint, bottom, messages.element, messages.live, drop, help);
 
   studio.state.watch((now, before) => {
@@ -90,13 +94,14 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
     }
     halves.hidden = settings.compare === null;
     compare.setAttribute('aria-pressed', String(settings.compare !== null));
-    left.textContent = techniqueTitle(history.drawing.at(-1)?.curve.technique ?? settings.technique);
+    left.textContent = studio.techniqueTitle(history.drawing.at(-1)?.curve.technique ?? settings.technique);
     if (settings.compare !== null) {
       if (now.hasEmbedding !== before.hasEmbedding || select.options.length === 0 || before.settings.compare === null) {
-        select.replaceChildren(...orderedTechniques(studio).map(({ name }) => h('option', { value: name, disabled: !studio.offers(name) }, techniqueTitle(name))));
+        select.replaceChildren(...studio.techniques.map(({ name, title }) => h('option', { value: name, disabled: !studio.offers(name) }, title)));
       }
       select.value = settings.compare;
     }
+    hintText.textContent = tools.now.hint.page;
     hint.hidden = settings.hintSeen || current === null;
     if (now.drawing) hint.classList.add('gone');
   });
@@ -112,15 +117,4 @@ export function buildInterface(root: HTMLElement, studio: Studio, actions: Actio
       drop.hidden = !on;
     },
   };
-}
-
-/** Starts comparing with a technique that tells most from the one in use; or stops. */
-export function toggleCompare(studio: Studio): void {
-  const { compare, technique } = studio.settings;
-  if (compare !== null) studio.set({ compare: null });
-  else studio.set({ compare: technique === 'spraycan' ? 'mimicry-live' : 'spraycan' });
-}
-
-export function shapeTitle(name: string): string {
-  return name.charAt(0).toUpperCase() + name.slice(1).replaceAll('-', ' ');
 }

@@ -1,6 +1,5 @@
-import type { Studio } from '../studio';
+import type { Studio } from '../studio/studio';
 import type { Messages } from './messages';
-import { techniqueTitle } from './technique_panel';
 
 /** Says what a stroke did, for those who do not see it. */
 export function speakStrokes(studio: Studio, messages: Messages): void {
@@ -15,6 +14,6 @@ export function speakStrokes(studio: Studio, messages: Messages): void {
     const [curve] = added;
     if (!curve) return messages.say('Pen up: the stroke met nothing.');
     const length_cm = 100 * curve.curve.length * curve.stroke.modelToWorld[7]!;
-    messages.say(`Stroke ${now.history.drawing.filter((drawn) => drawn.mirror === null).length}: ${length_cm.toFixed(length_cm < 10 ? 1 : 0)} centimetres with ${techniqueTitle(curve.curve.technique)}${added.length > 1 ? ', and its mirror image' : ''}.`);
+    messages.say(`Stroke ${now.history.drawing.filter((drawn) => drawn.mirror === null).length}: ${length_cm.toFixed(length_cm < 10 ? 1 : 0)} centimetres with ${studio.techniqueTitle(curve.curve.technique)}${added.length > 1 ? ', and its mirror image' : ''}.`);
   });
 }

@@ -1,4 +1,4 @@
-import type { Documents } from '../documents';
+import type { Documents } from '../studio/documents';
 import type { Messages } from './messages';
 
 /** Says when another tab draws on the open drawing, and names the drawing in the window's title. */

@@ -56,18 +56,52 @@ describe('drawings', () => {
     await stroke(page, kRing);
     await page.evaluate(() => window.studio.openShape('trefoil'));
     await reload(page);
-    expect(await modelName()).toBe('trefoil');
+    await expect.poll(() => modelName()).toBe('trefoil');
     await openDrawings();
     await page.getByRole('button', { name: /^Hand 1 stroke/ }).click();
     await expect.poll(() => modelName()).toBe('hand');
-    expect((await summary(page)).curves).toEqual(hand);
+    await expect.poll(async () => (await summary(page)).curves).toEqual(hand);
     await openDrawings();
     await page.getByRole('button', { name: /^ring\.obj/ }).click();
     await expect.poll(() => modelName()).toBe('ring.obj');
-    expect(await count(page)).toBe(1);
-    await expect.poll(() => names()).toEqual(['Hand', 'Torus', 'ring.obj']); // the empty one is not kept
+    await expect.poll(() => count(page)).toBe(1);
+    await expect.poll(names).toEqual(['Hand', 'Torus', 'ring.obj']); // the empty one is not kept
     await reload(page);
-    expect(await modelName()).toBe('ring.obj');
+    await expect.poll(() => modelName()).toBe('ring.obj');
+  });
+
+  it('on the built-in model that the address names are opened again, and begun where there is none', async () => {
+    const id = (on = page): Promise<string> => on.evaluate(() => window.studio.documents.open.now!.id);
+    const named = `${page.url()}&shape=torus`;
+    const go = async (on: Page, url: string): Promise<void> => {
+      await on.goto(url);
+      await on.waitForSelector('html[data-ready]');
+    };
+    await stroke(page, kAcross);
+    await settled();
+    await go(page, named);
+    await expect.poll(async () => [await modelName(), await count(page)]).toEqual(['torus', 0]);
+    const first = await id();
+    await reload(page);
+    await expect.poll(id).toBe(first);
+    await stroke(page, kRing);
+    await reload(page);
+    await expect.poll(async () => [await id(), await count(page)]).toEqual([first, 1]);
+    // Another one on the same model is the latest, the other model's is not looked at.
+    await page.evaluate(() => window.studio.documents.fresh());
+    await stroke(page, kRing);
+    await stroke(page, kRing);
+    await reload(page);
+    await expect.poll(() => count(page)).toBe(2);
+    await page.evaluate(() => window.studio.openShape('hand'));
+    await settled();
+    const other = await opened.context.newPage();
+    await go(other, named);
+    await expect.poll(async () => [await modelName(other), await count(other)]).toEqual(['torus', 2]);
+    await expect.poll(() => names(other)).toEqual(['Hand', 'Torus', 'Torus 2']);
+    await go(other, named.replace('torus', 'teapot'));
+    await expect.poll(() => messages(other)).toEqual([expect.stringContaining('There is no built-in model “teapot”')]);
+    await other.close();
   });
 
   it('are renamed, deleted and brought back', async () => {
@@ -78,14 +112,14 @@ describe('drawings', () => {
     await page.keyboard.press('Enter');
     await page.getByRole('button', { name: 'Delete Five fingers' }).waitFor();
     await page.getByRole('button', { name: 'New drawing' }).click();
-    expect(await count(page)).toBe(0);
+    await expect.poll(() => count(page)).toBe(0);
     await stroke(page, kLow);
     await openDrawings();
     await page.getByRole('button', { name: 'Delete Five fingers' }).click();
-    await expect.poll(() => names()).toEqual(['Hand']);
+    await expect.poll(names).toEqual(['Hand']);
     await page.keyboard.press('Escape');
     await page.getByRole('button', { name: 'Undo', exact: true }).last().click();
-    await expect.poll(() => names()).toEqual(['Five fingers', 'Hand']);
+    await expect.poll(names).toEqual(['Five fingers', 'Hand']);
     // The open one too, and from the list after a reload.
     await openDrawings();
     await page.getByRole('button', { name: 'Delete Hand' }).click();
@@ -130,14 +164,14 @@ describe('drawings', () => {
     });
     await page.reload();
     await page.waitForSelector('html[data-ready]');
-    expect((await summary(page)).curves).toEqual(before.curves);
-    expect(await names()).toEqual(['Hand', 'Hand 2']);
+    await expect.poll(async () => (await summary(page)).curves).toEqual(before.curves);
+    await expect.poll(names).toEqual(['Hand', 'Hand 2']);
     await openDrawings();
     await page.getByRole('button', { name: /^Hand 1 stroke/ }).click();
     await expect.poll(() => count(page)).toBe(1);
     await reload(page);
-    expect((await summary(page)).curves).toEqual(before.curves.slice(0, 1));
-    expect(await names()).toEqual(['Hand', 'Hand 2']);
+    await expect.poll(async () => (await summary(page)).curves).toEqual(before.curves.slice(0, 1));
+    await expect.poll(names).toEqual(['Hand', 'Hand 2']);
   });
 
   it('in a damaged file never empty the page; one with a bad stroke opens without it', async () => {
@@ -167,9 +201,9 @@ describe('drawings', () => {
     const id = JSON.parse(saved.toString()).entries[0].id;
     await choose('one.mimicry-drawing', spoil((file) => { file.strokes.strokes[0].frames[2].controller.position[1] = null; }));
     await expect.poll(() => modelName()).toBe('hand');
-    expect((await summary(page)).curves.map((c) => c.id)).toEqual([JSON.parse(saved.toString()).entries[1].id]);
+    await expect.poll(async () => (await summary(page)).curves.map((c) => c.id)).toEqual([JSON.parse(saved.toString()).entries[1].id]);
     await expect.poll(async () => (await messages(page)).at(-1)).toContain(id);
-    expect(await names()).toEqual(['Hand', 'Hand 2', 'Torus']);
+    await expect.poll(names).toEqual(['Hand', 'Hand 2', 'Torus']);
   });
 });
 
@@ -184,7 +218,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await stroke(page, kAcross);
     await settled();
     const second = await tab(opened.context);
-    expect(await count(second)).toBe(1);
+    await expect.poll(() => count(second)).toBe(1);
     await expect.poll(() => messages(second)).toEqual([expect.stringContaining('open in another tab')]);
     await page.bringToFront();
     await stroke(page, kLow);
@@ -194,7 +228,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await second.bringToFront();
     await stroke(second, kLow);
     await expect.poll(() => messages(second)).toEqual([expect.stringContaining('You draw on a copy, “Hand (copy)”')]);
-    expect(await count(second)).toBe(2);
+    await expect.poll(() => count(second)).toBe(2);
     await settled(second);
     await page.bringToFront();
     await stroke(page, [[310, 300], [350, 300]]);
@@ -203,7 +237,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await reload(page);
     await reload(second);
     expect([await count(page), await count(second)]).toEqual([3, 2]);
-    expect(await names()).toEqual(['Hand', 'Hand (copy)']);
+    await expect.poll(names).toEqual(['Hand', 'Hand (copy)']);
     await expect.poll(() => messages(second)).toEqual([]);
   });
 
@@ -211,14 +245,14 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await stroke(page, kAcross);
     await settled();
     const second = await tab(opened.context);
-    expect(await second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(false);
+    await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(false);
     await page.close({ runBeforeUnload: true });
     await expect.poll(() => second.evaluate(() => window.studio.documents.open.now!.writes)).toBe(true);
-    expect(await messages(second)).toEqual([]);
+    await expect.poll(() => messages(second)).toEqual([]);
     await stroke(second, kLow);
     await reload(second);
-    expect(await count(second)).toBe(2);
-    expect(await names(second)).toEqual(['Hand']);
+    await expect.poll(() => count(second)).toBe(2);
+    await expect.poll(() => names(second)).toEqual(['Hand']);
   });
 
   it('an empty drawing that the first lets go of goes on in the second', async () => {
@@ -231,7 +265,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await stroke(second, kLow);
     await reload(second);
     expect([await modelName(second), await count(second)]).toEqual(['hand', 2]);
-    expect(await names(second)).toContain('Hand');
+    await expect.poll(() => names(second)).toContain('Hand');
   });
 
   it('a drawing that the first deletes goes on in the second under a name of its own', async () => {
@@ -244,7 +278,7 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await second.bringToFront();
     await stroke(second, kLow);
     await reload(second);
-    expect(await count(second)).toBe(2);
+    await expect.poll(() => count(second)).toBe(2);
     const kept = await second.evaluate(async () => (await window.studio.documents.list()).find((d) => d.id === window.studio.documents.open.now!.id));
     expect(kept!.deleted_ms).toBeNull();
   });
@@ -258,8 +292,8 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await expect.poll(() => messages(second)).toEqual([expect.stringContaining('You draw on a copy')]);
     const turn = await second.evaluate(() => [...window.studio.studio.state.now.turn]);
     await reload(second);
-    expect(await second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
-    expect(await page.evaluate(() => window.studio.studio.state.now.turn[0])).toBe(0);
+    await expect.poll(() => second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.state.now.turn[0])).toBe(0);
   });
 
   it('a drawing that is open in the other is not deleted; a new name and another side up arrive', async () => {
@@ -272,12 +306,12 @@ describe.each(['Web Locks', 'no Web Locks'])('two tabs, with %s', (kind) => {
     await expect.poll(() => page.title()).toBe('Palm · mimicry studio');
     await stroke(page, kLow);
     await settled();
-    expect(await names()).toEqual(['Palm']);
+    await expect.poll(names).toEqual(['Palm']);
     await page.keyboard.press('u');
     const turn = await page.evaluate(() => [...window.studio.studio.state.now.turn]);
     expect(turn[0]).not.toBe(0);
     await expect.poll(() => second.evaluate(() => [...window.studio.studio.state.now.turn])).toEqual(turn);
-    expect(await count(second)).toBe(2);
+    await expect.poll(() => count(second)).toBe(2);
   });
 });
 
@@ -290,14 +324,14 @@ describe('a page that goes away', () => {
     await page.mouse.move(...kLow[1]!, { steps: 6 });
     await page.reload();
     await page.waitForSelector('html[data-ready]');
-    expect(await count(page)).toBe(2);
+    await expect.poll(() => count(page)).toBe(2);
     await stroke(page, [[310, 300], [350, 300]]);
     const before = (await summary(page)).curves;
     await page.reload(); // at once
     await page.waitForSelector('html[data-ready]');
-    expect((await summary(page)).curves).toEqual(before);
+    await expect.poll(async () => (await summary(page)).curves).toEqual(before);
     await page.mouse.up();
-    expect(await page.evaluate(() => localStorage.getItem('mimicry-last-words'))).toBeNull();
+    await expect.poll(() => page.evaluate(() => localStorage.getItem('mimicry-last-words'))).toBeNull();
   });
 
   it('does not write over what was drawn since', async () => {
@@ -315,7 +349,7 @@ describe('a page that goes away', () => {
     await settled();
     await page.evaluate((text) => localStorage.setItem('mimicry-last-words', text!), words);
     await reload(page);
-    expect(await count(page)).toBe(2);
+    await expect.poll(() => count(page)).toBe(2);
   });
 });
 
@@ -341,7 +375,7 @@ describe('storage that is full', () => {
     await stroke(page, kLow);
     await expect.poll(() => messages(page)).not.toContainEqual(expect.stringContaining('storage is full'));
     await reload(page);
-    expect(await count(page)).toBe(2);
-    expect(await names()).toEqual(['Hand', 'Torus']);
+    await expect.poll(() => count(page)).toBe(2);
+    await expect.poll(names).toEqual(['Hand', 'Torus']);
   });
 });

@@ -68,7 +68,7 @@ describe('mouse', () => {
     expect(moved.slice(12)).not.toEqual(turned.slice(12));
     await page.mouse.wheel(0, -300);
     await expect.poll(camera).not.toEqual(moved);
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('with the right button or the space bar turns the view over the model too', async () => {
@@ -79,17 +79,17 @@ describe('mouse', () => {
     await page.keyboard.down('Space');
     await stroke(page, kAcross);
     await page.keyboard.up('Space');
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('undoes and redoes, by button and by key', async () => {
     await stroke(page, kAcross);
     await stroke(page, [[320, 280], [365, 285]]);
     await press('Undo');
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     await page.keyboard.press('Control+z');
-    expect((await summary(page)).curves).toHaveLength(0);
-    expect(await page.getByRole('button', { name: 'Undo', exact: true }).isDisabled()).toBe(true);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
+    await expect.poll(() => page.getByRole('button', { name: 'Undo', exact: true }).isDisabled()).toBe(true);
     await page.keyboard.press('Control+Shift+z');
     await press('Redo');
     const { curves, future } = await summary(page);
@@ -144,7 +144,7 @@ describe('mouse', () => {
     expect(curves.map((c) => c.mirror)).toEqual([null, 'x']);
     expect(curves[1]!.points).toBeGreaterThan(3);
     await page.keyboard.press('Control+z');
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('redraws the last stroke with another technique', async () => {
@@ -165,7 +165,7 @@ describe('mouse', () => {
     expect(half).toEqual({ split: true, children: 1 });
     await stroke(page, [[150, 240], [175, 230]]); // in the left half
     await stroke(page, [[470, 240], [495, 230]]); // and in the right one
-    expect((await summary(page)).curves).toHaveLength(3);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(3);
   });
 
   it('ends the stroke and keeps it when the window is resized or loses the focus', async () => {
@@ -182,7 +182,7 @@ describe('mouse', () => {
     const size = await page.$eval('canvas', (canvas) => [canvas.width, canvas.height]);
     expect(size).toEqual([700, 560]);
     await stroke(page, [[350, 330], [380, 320]]);
-    expect((await summary(page)).curves).toHaveLength(2);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
     await page.setViewportSize(kWindow);
   });
 });
@@ -193,12 +193,12 @@ describe('keyboard', () => {
     const start = await camera();
     await page.keyboard.press('Enter');
     for (let i = 0; i < 8; i += 1) await page.keyboard.press('ArrowRight');
-    expect((await summary(page)).drawing).toBe(true);
+    await expect.poll(async () => (await summary(page)).drawing).toBe(true);
     await page.keyboard.press('Enter');
     const { curves } = await summary(page);
     expect(curves).toHaveLength(1);
     expect(curves[0]!.points).toBeGreaterThan(5);
-    expect(await camera()).toEqual(start);
+    await expect.poll(camera).toEqual(start);
     await page.keyboard.press('ArrowRight');
     await expect.poll(camera).not.toEqual(start);
   });
@@ -209,15 +209,15 @@ describe('keyboard', () => {
       await page.keyboard.press('Enter');
       for (let i = 0; i < 8; i += 1) await page.keyboard.press('ArrowRight');
       if (undo) await page.keyboard.press('Control+z');
-      expect((await summary(page)).curves).toHaveLength(0);
+      await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
     }
     await page.keyboard.press('Enter');
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 
   it('reaches every control, and the help names the keys', async () => {
     await page.keyboard.press('?');
-    expect(await page.getByRole('dialog', { name: 'Drawing in the studio' }).isVisible()).toBe(true);
+    await expect.poll(() => page.getByRole('dialog', { name: 'Drawing in the studio' }).isVisible()).toBe(true);
     await page.keyboard.press('Escape');
     const names = new Set<string>();
     for (let i = 0; i < 24; i += 1) {
@@ -240,7 +240,7 @@ describe('fingers', () => {
     await touch(session, 'touchStart', [[300, 240]]);
     for (let i = 1; i <= 10; i += 1) await touch(session, 'touchMove', [[300 + 6 * i, 240 - 2 * i]]);
     await touch(session, 'touchEnd', []);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     const start = await camera();
     await touch(session, 'touchStart', [[60, 250]]);
     await touch(session, 'touchMove', [[120, 250]]);
@@ -251,7 +251,7 @@ describe('fingers', () => {
     await touch(session, 'touchStart', [[310, 250], [370, 250]]);
     for (let i = 1; i <= 5; i += 1) await touch(session, 'touchMove', [[310 - 10 * i, 250], [370 + 10 * i, 250]]);
     await touch(session, 'touchEnd', []);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     await expect.poll(camera).not.toEqual(turned);
   });
 });
@@ -276,6 +276,6 @@ describe('pen', () => {
     await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: 310, y: 250, id: 0 }] });
     await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: 370, y: 250, id: 0 }] });
     await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 });

@@ -44,7 +44,7 @@ describe('in Firefox the studio', () => {
   it('opens and draws, and undoes', async () => {
     await stroke(kAcross);
     await expect.poll(count).toBe(1);
-    expect((await curves())[0]).toBeGreaterThan(5);
+    await expect.poll(async () => (await curves())[0]).toBeGreaterThan(5);
     await page.keyboard.down('Control');
     await page.keyboard.press('z');
     await page.keyboard.up('Control');
@@ -64,14 +64,14 @@ describe('in Firefox the studio', () => {
       for (let i = 0; i < pixels.length; i += 4) if (pixels[i]! > 2 * pixels[i + 2]!) found += 1;
       return gl.getError() === 0 ? found : -1;
     });
-    expect(await red()).toBe(0);
+    await expect.poll(red).toBe(0);
     await page.mouse.move(300, 240);
     await page.mouse.down();
     await page.mouse.move(340, 225, { steps: 8 });
     await expect.poll(red).toBeGreaterThan(20);
     await page.mouse.up();
     await expect.poll(count).toBe(1);
-    expect(await red()).toBeGreaterThan(20);
+    await expect.poll(red).toBeGreaterThan(20);
   });
 
   it('brings the drawing back when it is reloaded', async () => {
@@ -96,7 +96,7 @@ describe('in Firefox the studio', () => {
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'ring.obj');
     await input.uploadFile(bad);
     await page.waitForFunction(() => /bad\.obj/.test(document.querySelector('#messages .problem')?.textContent ?? ''));
-    expect(await page.evaluate(() => window.studio.studio.state.now.model?.faces)).toBe(2400);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.state.now.model?.faces)).toBe(2400);
     await page.evaluate(() => {
       const { studio } = window.studio;
       const frame = new Float64Array(17);
@@ -110,7 +110,7 @@ describe('in Firefox the studio', () => {
       }
       studio.endStroke();
     });
-    expect(await count()).toBe(1);
+    await expect.poll(count).toBe(1);
   });
 
   it('draws with one finger, and turns the view with two', async () => {
@@ -120,7 +120,7 @@ describe('in Firefox the studio', () => {
     for (let i = 1; i <= 8; i += 1) await finger.move(300 + 6 * i, 240 - 2 * i);
     await finger.end();
     await expect.poll(count).toBe(1);
-    expect(await camera()).toBe(before);
+    await expect.poll(camera).toBe(before);
     const [one, two] = [await page.touchscreen.touchStart(300, 240), await page.touchscreen.touchStart(360, 240)];
     for (let i = 1; i <= 6; i += 1) {
       await one.move(300 - 6 * i, 240);
@@ -129,6 +129,6 @@ describe('in Firefox the studio', () => {
     await one.end();
     await two.end();
     await expect.poll(camera).not.toBe(before);
-    expect(await count()).toBe(1);
+    await expect.poll(count).toBe(1);
   });
 });

@@ -2,7 +2,7 @@ import { spawn, type ChildProcess } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import puppeteer, { type Browser, type BrowserContext, type Page } from 'puppeteer-core';
 import { serve, type Served } from './server';
-import { kWindow } from './studio_page';
+import { knowsTheHint, kWindow } from './studio_page';
 
 const kFirefox = '/usr/bin/firefox-esr';
 
@@ -47,6 +47,7 @@ export class FirefoxLab {
     page.on('console', (message) => {
       if (message.type() === 'error' && !message.text().includes('api/status')) errors.push(message.text());
     });
+    await page.evaluateOnNewDocument(knowsTheHint);
     await page.goto(`${this.served.url}?antialias=off&motion=off&embeddings=off`);
     await page.waitForSelector('html[data-ready]', { timeout: 60000 });
     return { context, page, errors };

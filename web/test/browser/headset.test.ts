@@ -75,12 +75,12 @@ describe('a headset', () => {
     expect(curves[0]!.technique).toBe('mimicry-live');
     expect(curves[0]!.frames).toBeGreaterThan(30);
     expect(curves[0]!.points).toBeGreaterThan(20);
-    expect(await page.evaluate(() => (window as unknown as { tick?: number }).tick)).toBeGreaterThan(0);
+    await expect.poll(() => page.evaluate(() => (window as unknown as { tick?: number }).tick)).toBeGreaterThan(0);
     await page.evaluate(() => {
       const b = (v: number): void => window.headset.controllers.right!.updateButtonValue('b-button', v);
       return window.drive(6, (i) => { if (i === 1) b(1); if (i === 3) b(0); });
     });
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('points along -z of the target ray: spraycan inks what the controller points at', async () => {
@@ -106,9 +106,9 @@ describe('a headset', () => {
   it('draws with the left hand for those who do', async () => {
     await page.evaluate(() => window.studio.studio.set({ hand: 'left' }));
     await draw('right');
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
     await draw('left');
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 
   it('holds the model with the other hand, also while drawing: the ink stays on the model', async () => {
@@ -185,12 +185,12 @@ describe('a headset', () => {
       return { compare: window.studio.studio.settings.compare, inRoom: twin.group.parent === window.studio.stage.scene, ink: twin.group.children.at(-1)!.children.length };
     });
     await flick(1);
-    expect(await beside()).toMatchObject({ compare: 'occlude', inRoom: true });
+    await expect.poll(beside).toMatchObject({ compare: 'occlude', inRoom: true });
     await flick(1);
-    expect(await beside()).toEqual({ compare: 'spraycan', inRoom: true, ink: 1 });
+    await expect.poll(beside).toEqual({ compare: 'spraycan', inRoom: true, ink: 1 });
     await flick(-1);
     await flick(-1);
-    expect(await beside()).toMatchObject({ compare: null, inRoom: false });
+    await expect.poll(beside).toMatchObject({ compare: null, inRoom: false });
   });
 
   it('ends the stroke when the controller is lost, keeps it, and waits for a new press', async () => {
@@ -210,7 +210,7 @@ describe('a headset', () => {
     expect(curves[0]!.frames).toBeLessThan(22);
     await expect.poll(() => messages(page)).toEqual([expect.stringContaining('lost from sight')]);
     await draw();
-    expect((await summary(page)).curves).toHaveLength(2);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
   });
 
   it('leaving it while drawing keeps the stroke and shows the page again', async () => {
@@ -254,7 +254,7 @@ describe('a headset', () => {
     });
     await page.evaluate(() => window.studio.xr.exit());
     await expect.poll(seen).toEqual(before);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     // Something is seen, and it is drawn on.
     await page.evaluate(() => window.studio.frameModel());
     await page.evaluate(() => {
@@ -262,12 +262,12 @@ describe('a headset', () => {
       const send = (type: string, x: number): unknown => document.querySelector('canvas')!.dispatchEvent(new PointerEvent(type, { pointerId: 7, pointerType: 'mouse', button: type === 'pointermove' ? -1 : 0, buttons: type === 'pointerup' ? 0 : 1, clientX: x, clientY: 90 }));
       for (const [type, x] of [['pointerdown', 118], ['pointermove', 121], ['pointermove', 124], ['pointerup', 124]] as const) send(type, x);
     });
-    expect((await summary(page)).curves).toHaveLength(2);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
     await enter();
     await page.setViewportSize({ width: 300, height: 200 });
     await page.evaluate(() => window.studio.xr.exit());
     await expect.poll(async () => (await seen()).size).toEqual([300, 200]);
-    expect((await seen()).aspect).toBeCloseTo(1.5, 12);
+    await expect.poll(async () => (await seen()).aspect).toBeCloseTo(1.5, 12);
     await page.setViewportSize(kWindow);
     await expect.poll(async () => (await seen()).size).toEqual([kWindow.width, kWindow.height]);
   });
@@ -300,23 +300,23 @@ describe('a headset', () => {
   it('says how to draw until the first stroke, and has redo and symmetry on the other hand', async () => {
     const hint = (): Promise<boolean> => page.evaluate(() => window.studio.xr.hands.hintVisible);
     await page.evaluate(() => window.drive(2, () => undefined));
-    expect(await hint()).toBe(true);
+    await expect.poll(hint).toBe(true);
     await draw();
-    expect(await hint()).toBe(false);
+    await expect.poll(hint).toBe(false);
     const press = (hand: 'left' | 'right', button: string): Promise<void> => page.evaluate(([side, name]) => {
       const c = window.headset.controllers[side as 'left' | 'right']!;
       return window.drive(6, (i) => { if (i === 1) c.updateButtonValue(name!, 1); if (i === 3) c.updateButtonValue(name!, 0); });
     }, [hand, button]);
     await press('right', 'b-button');
-    expect(await summary(page)).toMatchObject({ curves: [], future: 1 });
+    await expect.poll(() => summary(page)).toMatchObject({ curves: [], future: 1 });
     await press('left', 'y-button');
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     const settings = (): Promise<{ mirror: string | null; color: string }> => page.evaluate(() => ({ mirror: window.studio.studio.settings.mirror, color: window.studio.studio.settings.style.color }));
     const before = await settings();
     await press('left', 'x-button');
-    expect((await settings()).mirror).toBe('x');
+    await expect.poll(async () => (await settings()).mirror).toBe('x');
     await press('right', 'a-button');
-    expect((await settings()).color).not.toBe(before.color);
+    await expect.poll(async () => (await settings()).color).not.toBe(before.color);
   });
 
   it('that is denied is answered by a sentence', async () => {
@@ -362,7 +362,7 @@ describe('replay', () => {
     for (const technique of ['mimicry-live', 'snap', 'anchored-closest', 'spraycan', 'occlude', 'anchored-ray-plane']) {
       await page.evaluate((name) => { window.studio.studio.clear(); window.studio.studio.set({ technique: name }); }, technique);
       await draw('right', 30);
-      expect((await summary(page)).curves, technique).toHaveLength(1);
+      await expect.poll(async () => (await summary(page)).curves, { message: technique }).toHaveLength(1);
       const strokes = join(folder, 'strokes.json'), out = join(folder, technique);
       writeFileSync(strokes, (await downloaded(page, () => page.evaluate(() => window.studio.exportStrokes()))).bytes);
       const ours = JSON.parse((await downloaded(page, () => page.evaluate(() => window.studio.exportCurves('json')))).bytes.toString());

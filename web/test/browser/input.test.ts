@@ -98,7 +98,7 @@ describe('on a screen', () => {
       let length = 0;
       for (let i = 1; i < ink.length; i += 1) length += Math.hypot(ink[i]![0] - ink[i - 1]![0], ink[i]![1] - ink[i - 1]![1]);
       lengths.push(length / way);
-      expect(await messages(page), `${technique} ${length}`).toEqual(length < 0.5 * way ? [expect.stringMatching(/drew little of this stroke: .* choose another technique/)] : []);
+      await expect.poll(() => messages(page), { message: `${technique} ${length}` }).toEqual(length < 0.5 * way ? [expect.stringMatching(/drew little of this stroke: .* choose another technique/)] : []);
     }
     expect(lengths[1]).toBeGreaterThan(0.9);
     // Whatever the stroke, the sentence knows what the technique needs.
@@ -121,7 +121,7 @@ describe('on a screen', () => {
     await page.mouse.move(330, 240);
     await page.mouse.wheel(0, -700);
     await stroke(page, kAcross);
-    expect(await part()).toBeCloseTo(far, 2);
+    await expect.poll(part).toBeCloseTo(far, 2);
   });
 
   it('a pointer that leaves the model and comes back draws under the pointer again', async () => {
@@ -145,22 +145,22 @@ describe('fingers anywhere', () => {
     const before = await camera(), far = await distance();
     await both([[310, 240], [350, 240]], steps((t) => [310 + 60 * t, 240], (t) => [350 + 60 * t, 240]));
     await expect.poll(async () => (await camera()).turn).not.toEqual(before.turn);
-    expect(await distance()).toBeCloseTo(far, 9);
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(distance).toBeCloseTo(far, 9);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('two apart zoom, move and twist the picture', async () => {
     const far = await distance(), before = await camera();
     await both([[320, 240], [340, 240]], steps((t) => [320 - 40 * t, 240], (t) => [340 + 40 * t, 240]));
     await expect.poll(async () => far / (await distance())).toBeCloseTo(5, 1);
-    expect((await camera()).turn.map((v, k) => Math.abs(v - before.turn[k]!) < 1e-9)).toEqual([true, true, true, true]);
+    await expect.poll(async () => (await camera()).turn.map((v, k) => Math.abs(v - before.turn[k]!) < 1e-9)).toEqual([true, true, true, true]);
     await page.keyboard.press('f');
     const start = await camera();
     const quarter = (t: number, phase: number): [number, number] => [330 + 50 * Math.cos(phase + (t * Math.PI) / 2), 240 + 50 * Math.sin(phase + (t * Math.PI) / 2)];
     await both([quarter(0, 0), quarter(0, Math.PI)], steps((t) => quarter(t, 0), (t) => quarter(t, Math.PI)));
     // A quarter turn about the camera's axis: the quaternions' product has half that angle.
     await expect.poll(async () => Math.abs((await camera()).turn.reduce((sum, v, k) => sum + v * start.turn[k]!, 0))).toBeCloseTo(Math.cos(Math.PI / 4), 1);
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 
   it('a tap with two undoes, with three redoes', async () => {
@@ -175,9 +175,9 @@ describe('fingers anywhere', () => {
       }, points);
     };
     await tap(2);
-    expect(await summary(page)).toMatchObject({ curves: [], future: 1 });
+    await expect.poll(() => summary(page)).toMatchObject({ curves: [], future: 1 });
     await tap(3);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 
   it('ten at once are harmless, and the next one draws', async () => {
@@ -185,14 +185,14 @@ describe('fingers anywhere', () => {
     for (let i = 1; i <= 10; i += 1) await touch('touchStart', ten(0).slice(0, i));
     for (let i = 1; i <= 5; i += 1) await touch('touchMove', ten(i / 5));
     await touch('touchEnd', []);
-    expect(await summary(page)).toMatchObject({ curves: [], drawing: false, past: 0 });
+    await expect.poll(() => summary(page)).toMatchObject({ curves: [], drawing: false, past: 0 });
     const finite = await page.evaluate(() => window.studio.stage.camera.matrixWorld.elements.every(Number.isFinite));
     expect(finite).toBe(true);
     await page.keyboard.press('f');
     await touch('touchStart', [[310, 240]]);
     for (let i = 1; i <= 10; i += 1) await touch('touchMove', [[310 + 5 * i, 240]]);
     await touch('touchEnd', []);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 });
 
@@ -210,10 +210,10 @@ describe('a pen', () => {
     await send([['pointermove', kPen, 'pen', 300, 240, { buttons: 0 }]]);
     const before = await camera();
     await send([['pointerdown', kPalm, 'touch', 330, 240], ['pointermove', kPalm, 'touch', 380, 240], ['pointerup', kPalm, 'touch', 380, 240]]);
-    expect(await camera()).toEqual(before);
+    await expect.poll(camera).toEqual(before);
     await page.waitForTimeout(500); // the pen has gone
     await send([['pointerdown', kPalm, 'touch', 330, 240], ['pointermove', kPalm, 'touch', 380, 240], ['pointerup', kPalm, 'touch', 380, 240]]);
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
     await expect.poll(camera).not.toEqual(before);
   });
 
@@ -223,7 +223,7 @@ describe('a pen', () => {
     const { curves } = await summary(page);
     expect(curves).toHaveLength(1);
     expect(curves[0]!.kept).toHaveLength(2);
-    expect(await page.evaluate(() => window.studio.studio.settings.tool)).toBe('draw');
+    await expect.poll(() => page.evaluate(() => window.studio.studio.settings.tool)).toBe('draw');
   });
 
   it('starts at what is pressed on, wherever that is and however it leans', async () => {
@@ -296,8 +296,8 @@ describe('keys', () => {
         await stroke(page, kAcross);
         await page.keyboard.up(key);
         await expect.poll(async () => (await camera()).turn, { message: `${key} ${focus}` }).not.toEqual(before.turn);
-        expect((await summary(page)).curves.length, `${key} ${focus}`).toBe(curves.length);
-        expect(await page.locator('#techniques').isVisible()).toBe(false);
+        await expect.poll(async () => (await summary(page)).curves.length, { message: `${key} ${focus}` }).toBe(curves.length);
+        await expect.poll(() => page.locator('#techniques').isVisible()).toBe(false);
         await page.keyboard.press('f');
       }
     }
@@ -308,7 +308,7 @@ describe('keys', () => {
     await page.keyboard.down('Space');
     await page.evaluate(() => window.dispatchEvent(new Event('blur')));
     await stroke(page, kAcross);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
     await page.keyboard.up('Space');
   });
 
@@ -319,32 +319,32 @@ describe('keys', () => {
     await page.keyboard.press('Escape');
     await page.mouse.move(360, 240, { steps: 4 });
     await page.mouse.up();
-    expect(await summary(page)).toMatchObject({ curves: [], drawing: false, past: 0 });
+    await expect.poll(() => summary(page)).toMatchObject({ curves: [], drawing: false, past: 0 });
     await stroke(page, [[300, 240], [365, 240]], 20);
     await page.keyboard.press('e');
     await page.mouse.move(330, 240);
     await page.mouse.down();
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
     await page.keyboard.press('Escape');
     await page.mouse.up();
-    expect(await summary(page)).toMatchObject({ past: 1, drawing: false });
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(() => summary(page)).toMatchObject({ past: 1, drawing: false });
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   });
 
   it('Ctrl Z works wherever the focus is, and on other scripts', async () => {
     await page.keyboard.press('c');
     for (const focus of ['#techniques input', '#halves select', '#dock [role=radio]', 'input[type=range]', 'canvas']) {
       await stroke(page, [[150, 240], [175, 230]]);
-      expect((await summary(page)).curves, focus).toHaveLength(1);
+      await expect.poll(async () => (await summary(page)).curves, { message: focus }).toHaveLength(1);
       if (focus.startsWith('#techniques')) await page.keyboard.press('t');
       await page.locator(focus).first().focus();
       await page.keyboard.press('Control+z');
-      expect((await summary(page)).curves, focus).toHaveLength(0);
+      await expect.poll(async () => (await summary(page)).curves, { message: focus }).toHaveLength(0);
       if (focus.startsWith('#techniques')) await page.keyboard.press('Escape');
     }
     await stroke(page, [[150, 240], [175, 230]]);
     await page.evaluate(() => window.dispatchEvent(new KeyboardEvent('keydown', { key: 'я', code: 'KeyZ', ctrlKey: true })));
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 });
 
@@ -390,27 +390,27 @@ describe('the eraser', () => {
     for (let i = 0; i < 5; i += 1) await stroke(page, [[305 + 12 * i, 225], [305 + 12 * i, 255]], 10);
     await page.keyboard.press('e');
     await stroke(page, [[300, 240], [362, 240]], 1);
-    expect((await summary(page)).curves).toHaveLength(0);
-    expect((await summary(page)).past).toBe(6);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).past).toBe(6);
   });
 
   it('has a size, by slider and key, and takes mirrored copies', async () => {
     await page.keyboard.press('m');
     await stroke(page, [[335, 240], [365, 240]], 20);
-    expect((await summary(page)).curves).toHaveLength(2);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
     await page.keyboard.press('r');
     const before = await page.evaluate(() => window.studio.studio.settings.eraser_m);
     await page.keyboard.press(']');
-    expect(await page.evaluate(() => window.studio.studio.settings.eraser_m)).toBeGreaterThan(before);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.settings.eraser_m)).toBeGreaterThan(before);
     await page.getByRole('slider', { name: 'Size of the eraser' }).fill('20');
-    expect(await page.evaluate(() => window.studio.studio.settings.eraser_m)).toBeLessThan(before);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.settings.eraser_m)).toBeLessThan(before);
     await stroke(page, [[350, 235], [350, 245]], 4);
     const { curves } = await summary(page);
     expect(curves.map((c) => c.kept.length)).toEqual([2, 2]);
     expect(curves[0]!.kept).toEqual(curves[1]!.kept);
     await page.keyboard.press('e');
     await stroke(page, [[340, 235], [340, 245]], 4);
-    expect((await summary(page)).curves).toHaveLength(0);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(0);
   });
 });
 

@@ -1,6 +1,7 @@
+import type { Page } from 'playwright-core';
 import { PNG } from 'pngjs';
 import { afterAll, beforeAll, expect, it } from 'vitest';
-import { kInks } from '../../src/settings';
+import { kInks } from '../../src/drawing/ink_styles';
 import { kAcross, Lab, stroke, summary } from './studio_page';
 
 let lab: Lab;
@@ -12,11 +13,83 @@ it.each([[1280, 640], [640, 640], [640, 480], [360, 640], [390, 480], [360, 480]
   await page.getByRole('button', { name: 'Save, export and more' }).click();
   const menu = page.locator('#files');
   const box = (await menu.boundingBox())!;
-  expect(await menu.evaluate((e) => e.scrollHeight - e.clientHeight)).toBeLessThanOrEqual(0);
-  expect(await menu.evaluate((e) => e.scrollWidth - e.clientWidth)).toBeLessThanOrEqual(0);
+  await expect.poll(() => menu.evaluate((e) => e.scrollHeight - e.clientHeight)).toBeLessThanOrEqual(0);
+  await expect.poll(() => menu.evaluate((e) => e.scrollWidth - e.clientWidth)).toBeLessThanOrEqual(0);
   expect([box.x >= 0, box.y >= 0, box.x + box.width <= width, box.y + box.height <= height]).toEqual([true, true, true, true]);
   for (const item of await menu.getByRole('button').all()) if (await item.isVisible()) expect((await item.boundingBox())!.height).toBeGreaterThanOrEqual(36);
   expect(errors).toEqual([]);
+  await context.close();
+});
+
+/** Pixels of the window by which the model reaches under the hint, the controls or the edge; 0: it is whole and free. */
+function covered(page: Page): Promise<number> {
+  return page.evaluate(() => {
+    const { stage, view, studio } = window.studio;
+    const spot = stage.camera.position.clone(), { positions } = studio.mesh!;
+    let left = Infinity, right = -Infinity, up = Infinity, down = -Infinity;
+    for (let at = 0; at < positions.length; at += 3) {
+      view.model.group.localToWorld(spot.set(positions[at]!, positions[at + 1]!, positions[at + 2]!)).project(stage.camera);
+      const width = stage.split ? innerWidth / 2 : innerWidth;
+      const x = ((spot.x + 1) / 2) * width, y = ((1 - spot.y) / 2) * innerHeight;
+      left = Math.min(left, x); right = Math.max(right, x - width + innerWidth); up = Math.min(up, y); down = Math.max(down, y);
+    }
+    let most = Math.max(0, -left, right - innerWidth, -up, down - innerHeight);
+    for (const element of document.querySelectorAll<HTMLElement>('#hint, #top > *, #halves > *, #bottom > *')) {
+      const box = element.getBoundingClientRect();
+      if (box.width === 0) continue;
+      most = Math.max(most, box.top < innerHeight / 2 ? box.bottom - up : down - box.top);
+    }
+    return most;
+  });
+}
+
+it('the model is whole between hint and controls in any window, also one that is resized, until someone moves the view', async () => {
+  const { context, page, errors } = await lab.open({ newcomer: true, viewport: { width: 360, height: 480 } });
+  await expect.poll(() => page.locator('#hint').isVisible()).toBe(true);
+  for (const shape of ['hand', 'torus', 'cube']) {
+    await page.evaluate((name) => window.studio.openShape(name), shape);
+    for (const [width, height] of [[360, 480], [1280, 800], [360, 740], [800, 360], [640, 480], [360, 480]] as const) {
+      await page.setViewportSize({ width, height });
+      await expect.poll(() => covered(page), { message: `${shape}, ${width} x ${height}` }).toBeLessThanOrEqual(1);
+    }
+  }
+  // Of two halves too.
+  await page.setViewportSize({ width: 1000, height: 640 });
+  await page.keyboard.press('c');
+  await expect.poll(() => covered(page)).toBeLessThanOrEqual(1);
+  await page.keyboard.press('c');
+  await expect.poll(() => covered(page)).toBeLessThanOrEqual(1);
+  const looks = (): Promise<number[]> => page.evaluate(() => window.studio.stage.camera.quaternion.toArray());
+  const first = await looks();
+  await page.keyboard.press('ArrowLeft');
+  await expect.poll(looks).not.toEqual(first);
+  const moved = await looks();
+  await page.setViewportSize({ width: 500, height: 600 });
+  await expect.poll(() => page.$eval('canvas', (canvas) => canvas.width)).toBe(500);
+  await expect.poll(looks).toEqual(moved);
+  await page.keyboard.press('f');
+  await expect.poll(looks).toEqual(first);
+  await expect.poll(() => covered(page)).toBeLessThanOrEqual(1);
+  expect(errors).toEqual([]);
+  await context.close();
+});
+
+it('the model stays where it is when the hint goes with the first stroke', async () => {
+  const { context, page } = await lab.open({ newcomer: true, viewport: { width: 640, height: 640 } });
+  const seen = (): Promise<number[]> => page.evaluate(() => {
+    const { camera } = window.studio.stage;
+    return [...camera.position.toArray(), ...camera.projectionMatrix.elements];
+  });
+  const before = await seen();
+  const [x, y] = await page.evaluate(() => {
+    const { studio, stage, view } = window.studio, centre = studio.centre();
+    const spot = view.model.group.localToWorld(stage.camera.position.clone().set(centre[0]!, centre[1]!, centre[2]!)).project(stage.camera);
+    return [((spot.x + 1) / 2) * innerWidth, ((1 - spot.y) / 2) * innerHeight + 25];
+  }) as [number, number];
+  await stroke(page, [[x, y], [x + 30, y + 10]]);
+  await expect.poll(() => page.locator('#hint').isVisible()).toBe(false);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
+  await expect.poll(seen).toEqual(before);
   await context.close();
 });
 
@@ -28,7 +101,7 @@ it('strokes from the keyboard are read out', async () => {
   await expect.poll(() => live.textContent()).toBe('Pen down.');
   for (let i = 0; i < 8; i += 1) await page.keyboard.press('ArrowRight');
   await page.keyboard.press('Enter');
-  expect((await summary(page)).curves).toHaveLength(1);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   await expect.poll(() => live.textContent()).toMatch(/^Stroke 1: [\d.]+ centimetres with Mimicry live\.$/);
   await page.keyboard.press('Control+z');
   await expect.poll(() => live.textContent()).toBe('Undone: stroke.');

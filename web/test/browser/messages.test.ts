@@ -36,7 +36,7 @@ it.each([[1280, 720], [640, 480], [800, 360], [390, 844], [360, 640], [768, 1024
   expect(errors).toEqual([]);
   if (width === 640) {
     await stroke(page, kAcross);
-    expect((await summary(page)).curves).toHaveLength(1);
+    await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   }
   await context.close();
 });

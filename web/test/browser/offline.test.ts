@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import type { BrowserContext, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 import { serve, type Served } from './server';
-import { kAcross, kWindow, Lab, messages, stroke, summary } from './studio_page';
+import { kAcross, kWindow, Lab, messages, stroke, summary, knowsTheHint } from './studio_page';
 
 let lab: Lab;
 let served: Served;
@@ -29,6 +29,7 @@ beforeEach(async () => {
   served = await serve();
   context = await lab.browser.newContext({ viewport: kWindow });
   page = await context.newPage();
+  await page.addInitScript(knowsTheHint);
   await page.goto(`${served.url}?antialias=off&motion=off&embeddings=off`);
   await page.waitForSelector('html[data-ready]');
   await page.waitForFunction(() => navigator.serviceWorker.controller?.state === 'activated');
@@ -50,12 +51,12 @@ it('after the first visit the studio opens, draws and reads models without a net
   await stroke(page, kAcross);
   served.close();
   await reload();
-  expect((await summary(page)).curves).toHaveLength(1);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   await stroke(page, [[320, 280], [375, 285]]);
-  expect((await summary(page)).curves).toHaveLength(2);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
   await page.setInputFiles('input[type=file]', { name: 'tri.obj', mimeType: '', buffer: Buffer.from('v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n') });
   await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'tri.obj');
-  expect(await messages(page)).toEqual([]);
+  await expect.poll(() => messages(page)).toEqual([]);
 });
 
 it('a newer build is announced to a page that is open, and comes with a reload; the old one is let go of', async () => {
@@ -65,24 +66,24 @@ it('a newer build is announced to a page that is open, and comes with a reload; 
   served.move(folder);
   await page.evaluate(async () => void (await (await navigator.serviceWorker.ready).update()));
   await expect.poll(() => messages(page)).toEqual(['A newer studio is there.']);
-  expect(await build()).not.toBe('thenextbuild');
+  await expect.poll(build).not.toBe('thenextbuild');
   await page.evaluate(() => window.studio.autosave.settled());
   await page.getByRole('button', { name: 'Reload' }).click();
   await page.waitForSelector('meta[content=thenextbuild]', { state: 'attached' });
   await page.waitForSelector('html[data-ready]');
-  expect((await summary(page)).curves).toHaveLength(1);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(1);
   await expect.poll(caches_).toEqual(['mimicry-studio-thenextbuild']);
-  expect(await messages(page)).toEqual([]);
+  await expect.poll(() => messages(page)).toEqual([]);
 });
 
 it('a reload with a network never shows the old page, announced or not', async () => {
   served.move(folder);
   await reload();
-  expect(await build()).toBe('thenextbuild');
+  await expect.poll(build).toBe('thenextbuild');
   await expect.poll(caches_).toEqual(['mimicry-studio-thenextbuild']);
   served.close();
   await reload();
-  expect(await build()).toBe('thenextbuild');
+  await expect.poll(build).toBe('thenextbuild');
 });
 
 it('the page can be installed: its manifest names it and its icons are there', async () => {

@@ -3,6 +3,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { drawMany } from './many_strokes';
 import { torusObj } from './meshes';
 import { Lab, messages, type Opened } from './studio_page';
 
@@ -26,30 +27,7 @@ async function open(): Promise<void> {
   page = opened.page;
 }
 
-/** Strokes of 150 frames all over the model, in all colours. */
-function draw(count: number): Promise<void> {
-  return page.evaluate((n) => {
-    const { studio } = window.studio;
-    const frame = new Float64Array(17);
-    frame.set([0, 1.15, 0.3, 0, 0, 0, 1], 1);
-    frame.set([0, 0, 0, 1], 11);
-    frame[15] = 1;
-    frame[16] = -1;
-    for (let curve = 0; curve < n; curve += 1) {
-      studio.set({ style: { ...studio.settings.style, color: ['#d6401f', '#2469d6', '#fbfaf7'][curve % 3]! } });
-      studio.beginStroke();
-      for (let i = 0; i < 150; i += 1) {
-        const t = i / 150, a = 0.3 * curve;
-        frame[0] = curve * 10 + i / 90;
-        frame[8] = 0.03 + 0.05 * Math.sin(4 * t + a);
-        frame[9] = 1.08 + 0.06 * Math.cos(3 * t + 1.7 * a);
-        frame[10] = -0.42;
-        studio.addFrame(frame);
-      }
-      studio.endStroke();
-    }
-  }, count);
-}
+const draw = (count: number): Promise<number> => drawMany(page, count);
 
 interface Picture {
   calls: number;
@@ -100,7 +78,7 @@ describe('many strokes', () => {
     expect(without.blue).toBe(0);
     expect(without.red).toBeGreaterThanOrEqual(all.red);
     await change(() => window.studio.studio.clear());
-    expect((await picture()).red).toBe(0);
+    await expect.poll(async () => (await picture()).red).toBe(0);
     await change(() => window.studio.studio.undo());
     await expect.poll(async () => (await picture()).red).toBe(without.red);
   });
@@ -141,12 +119,12 @@ describe('a bake that arrives', () => {
     expect(before).toHaveLength(3);
     await page.evaluate(() => window.studio.studio.undo());
     await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding);
-    expect(await lengths()).toEqual(before.slice(0, 2));
+    await expect.poll(lengths).toEqual(before.slice(0, 2));
     await page.evaluate(() => window.studio.studio.redo());
-    expect(await lengths()).toEqual(before);
+    await expect.poll(lengths).toEqual(before);
     await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
     await draw(1);
-    expect(await lengths()).toHaveLength(4);
+    await expect.poll(lengths).toHaveLength(4);
     await page.evaluate(() => window.studio.autosave.settled());
   });
 });
@@ -165,10 +143,10 @@ describe('large models', () => {
     });
     await page.setInputFiles('input[type=file]', file);
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'large.obj');
-    expect(await page.evaluate(() => window.studio.studio.state.now.model!.faces)).toBe(86400);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.state.now.model!.faces)).toBe(86400);
     await draw(3);
-    expect(await page.evaluate(() => window.studio.studio.state.now.history.drawing.length)).toBeGreaterThan(0);
-    expect(await page.evaluate(() => window.studio.studio.core.memoryBytes)).toBe(core);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.state.now.history.drawing.length)).toBeGreaterThan(0);
+    await expect.poll(() => page.evaluate(() => window.studio.studio.core.memoryBytes)).toBe(core);
     const small = join(folder, 'small.obj');
     writeFileSync(small, torusObj(8));
     await page.evaluate(() => Object.assign(window, { before: new WeakRef(window.studio.studio.target!) }));

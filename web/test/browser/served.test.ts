@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { torusObj } from './meshes';
-import { Lab, downloaded, messages, stroke, summary } from './studio_page';
+import { Lab, downloaded, messages, stroke, summary, knowsTheHint } from './studio_page';
 
 const kNative = process.env['MIMICRY_PROGRAM'] ?? resolve('../build/release/bin/mimicry');
 
@@ -35,6 +35,7 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
   it('draws, and has a dropped model prepared by the server', async () => {
     const context = await lab.browser.newContext({ viewport: { width: 640, height: 480 } });
     const page = await context.newPage();
+    await page.addInitScript(knowsTheHint);
     // What the server's Content-Security-Policy forbids is an error in the console.
     const errors: string[] = [];
     page.on('pageerror', (error) => errors.push(String(error)));
@@ -45,10 +46,11 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'ring.obj');
     await page.evaluate(() => window.studio.bake());
     await expect.poll(() => messages(page), { timeout: 25000 }).toContainEqual(expect.stringContaining('is prepared'));
-    expect(readdirSync(data, { recursive: true }).some((name) => String(name).endsWith('.mimicry'))).toBe(true);
+    // The server sends a bake before it keeps it.
+    await expect.poll(() => readdirSync(data, { recursive: true }).some((name) => String(name).endsWith('.mimicry'))).toBe(true);
     await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
     await stroke(page, [[390, 190], [400, 220], [395, 250]]);
-    expect((await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry']);
+    await expect.poll(async () => (await summary(page)).curves.map((c) => c.technique)).toEqual(['mimicry']);
     // Files that the page offers, a model baked in the page, and a reload with what is kept.
     expect((await downloaded(page, () => page.keyboard.press('Control+s'))).bytes.length).toBeGreaterThan(1000);
     await page.evaluate(() => { window.studio.openShape('sphere'); window.studio.bake(); });

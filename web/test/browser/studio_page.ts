@@ -1,7 +1,7 @@
 import { existsSync } from 'node:fs';
 import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from 'playwright-core';
-import type { App } from '../../src/app';
-import { kDefaults } from '../../src/settings';
+import type { App } from '../../src/app/app';
+import { kDefaults } from '../../src/studio/settings';
 import { serve, type Served } from './server';
 
 export const kWindow = { width: 640, height: 480 };
@@ -40,9 +40,9 @@ export class Lab {
     this.served.close();
   }
 
-  /** The studio, ready to be drawn in. prepare: before the page's own code runs. */
-  async open(options: BrowserContextOptions & { query?: string; prepare?: (page: Page) => Promise<void> } = {}): Promise<Opened> {
-    const { query = '', prepare, ...rest } = options;
+  /** The studio, ready to be drawn in. prepare: before the page's own code runs. newcomer: who sees the hint, and the model below it. */
+  async open(options: BrowserContextOptions & { query?: string; newcomer?: boolean; prepare?: (page: Page) => Promise<void> } = {}): Promise<Opened> {
+    const { query = '', newcomer = false, prepare, ...rest } = options;
     const context = await this.browser.newContext({ viewport: kWindow, deviceScaleFactor: 1, colorScheme: 'light', acceptDownloads: true, serviceWorkers: 'block', ...rest });
     const page = await context.newPage();
     const errors: string[] = [];
@@ -51,6 +51,7 @@ export class Lab {
       // A page that is not from `mimicry serve` asks in vain whether it is.
       if (message.type() === 'error' && !message.location().url.endsWith('/api/status')) errors.push(`${message.text()} ${message.location().url}`);
     });
+    if (!newcomer) await page.addInitScript(knowsTheHint);
     if (prepare) await prepare(page);
     await page.goto(`${this.served.url}?antialias=off&motion=off${query || '&embeddings=off'}`);
     await page.waitForSelector('html[data-ready]', { timeout: 20000 });
@@ -58,12 +59,21 @@ export class Lab {
   }
 }
 
-/** As just opened: the first model, no drawing, the settings of a newcomer. */
+/** In a page before its own code runs: someone has drawn here before, and the model has the hint's place too. */
+export function knowsTheHint(): void {
+  try {
+    localStorage['mimicry-studio-settings'] ??= '{"hintSeen":true}';
+  } catch {
+    // An empty page has no storage.
+  }
+}
+
+/** As just opened: the first model, no drawing, the first settings. */
 export async function reset(page: Page): Promise<void> {
   await page.evaluate(async (defaults) => {
     for (const sheet of document.querySelectorAll<HTMLElement>('[popover]')) sheet.hidePopover();
     document.querySelector<HTMLDialogElement>('dialog[open]')?.close();
-    window.studio.studio.set(defaults);
+    window.studio.studio.set({ ...defaults, hintSeen: true });
     window.studio.openShape('hand');
     await window.studio.autosave.settled();
     document.querySelectorAll('.message').forEach((message) => message.remove());
@@ -97,6 +107,7 @@ export async function stroke(page: Page, points: readonly (readonly [number, num
   await page.mouse.down();
   for (const point of points.slice(1)) await page.mouse.move(...point, { steps });
   await page.mouse.up();
+  await page.waitForFunction(() => !window.studio.pointer.isUsing);
 }
 
 /** A stroke over the middle of the model. */

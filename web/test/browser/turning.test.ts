@@ -27,26 +27,26 @@ it('a model with z up stands, U and the menu turn it, and the drawing keeps it s
   const { context, page, errors } = await lab.open();
   await page.setInputFiles('input[type=file]', { name: 'cone.stl', mimeType: '', buffer: Buffer.from(stl()) });
   await expect.poll(() => messages(page)).toEqual(['cone.stl is taken to have z up.']);
-  expect(await up(page)).toEqual([0, 1, 0]);
+  await expect.poll(() => up(page)).toEqual([0, 1, 0]);
   await stroke(page, [[300, 260], [330, 255], [350, 260]]);
   const before = await summary(page);
   expect(before.curves).toHaveLength(1);
   await page.keyboard.press('u');
-  expect(await up(page)).toEqual([0, 0, 1]);
+  await expect.poll(() => up(page)).toEqual([0, 0, 1]);
   await page.getByRole('button', { name: 'Save, export and more' }).click();
   await page.getByRole('button', { name: 'Turn by 90°' }).click();
-  expect(await up(page)).toEqual([0, -1, 0]);
+  await expect.poll(() => up(page)).toEqual([0, -1, 0]);
   await page.keyboard.press('Shift+u');
-  expect(await up(page)).toEqual([-1, 0, 0]);
+  await expect.poll(() => up(page)).toEqual([-1, 0, 0]);
   await reload(page);
-  expect(await up(page)).toEqual([-1, 0, 0]);
-  expect((await summary(page)).curves).toEqual(before.curves);
+  await expect.poll(() => up(page)).toEqual([-1, 0, 0]);
+  await expect.poll(async () => (await summary(page)).curves).toEqual(before.curves);
   const saved = await downloaded(page, () => page.keyboard.press('Control+s'));
   await page.evaluate(() => window.studio.openShape('torus'));
-  expect(await up(page)).toEqual([0, 0, 1]);
+  await expect.poll(() => up(page)).toEqual([0, 0, 1]);
   await page.setInputFiles('input[type=file]', { name: saved.name, mimeType: '', buffer: saved.bytes });
   await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'cone.stl');
-  expect(await up(page)).toEqual([-1, 0, 0]);
+  await expect.poll(() => up(page)).toEqual([-1, 0, 0]);
   // Ink is drawn on the model as it stands.
   const [x, y] = await page.evaluate(() => {
     const { stage, view } = window.studio;
@@ -54,7 +54,7 @@ it('a model with z up stands, U and the menu turn it, and the drawing keeps it s
     return [((middle.x + 1) / 2) * innerWidth, ((1 - middle.y) / 2) * innerHeight];
   });
   await stroke(page, [[x!, y!], [x! + 8, y! + 4], [x! + 16, y!]]);
-  expect((await summary(page)).curves).toHaveLength(2);
+  await expect.poll(async () => (await summary(page)).curves).toHaveLength(2);
   expect(errors).toEqual([]);
   await context.close();
 });

@@ -1,9 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { kController, kHead, makeFrame } from '../../src/drawing/frame';
+import { clampRadius } from '../../src/drawing/ink_styles';
 import { Hysteresis } from '../../src/input/hysteresis';
 import { makeView, PlanePen, screenFrame } from '../../src/input/screen_frame';
 import { rotate } from '../../src/math/vec';
-import { clampRadius, kDefaults, readSettings, resized, writeSettings } from '../../src/settings';
+import { kDefaults, readSettings, toolSetting, withToolSetting, writeSettings } from '../../src/studio/settings';
 
 function towards(x: number, y: number): ReturnType<typeof makeView> {
   const view = makeView();
@@ -103,10 +104,15 @@ describe('settings', () => {
     expect(readSettings(storage('{"penPlace": "on a plane"}')).penPlace).toBe('on a plane');
   });
 
-  it('resizing is of the ink while drawing, else of the eraser, within what can be used', () => {
-    expect(resized(kDefaults, 2)).toEqual({ style: { ...kDefaults.style, radius_m: 2 * kDefaults.style.radius_m } });
-    expect(resized({ ...kDefaults, tool: 'erase curve' }, 2)).toEqual({ eraser_m: 2 * kDefaults.eraser_m });
-    expect(resized({ ...kDefaults, tool: 'erase part' }, 1e6).eraser_m).toBeLessThan(0.1);
+  it('of tools come back too, and of another kind are not taken', () => {
+    let kept = '';
+    const chosen = { ...kDefaults, ...withToolSetting(kDefaults, 'stamp', 'size_m', 0.01) };
+    writeSettings({ setItem: (_, value) => { kept = value; } }, chosen);
+    const read = readSettings(storage(kept));
+    expect(toolSetting(read, 'stamp', 'size_m', 0.5)).toBe(0.01);
+    expect(toolSetting(read, 'stamp', 'size_m', 'large')).toBe('large');
+    expect(toolSetting(read, 'another', 'size_m', 0.5)).toBe(0.5);
+    for (const ofTools of ['7', '[]', '{"stamp": 1}', '{"stamp": {"size_m": null}}']) expect(readSettings(storage(`{"ofTools": ${ofTools}}`)).ofTools).toEqual({});
   });
 
   it('radii are held within what can be drawn', () => {

@@ -1,9 +1,11 @@
-import { PerspectiveCamera, Vector3 } from 'three';
+import { Matrix4, PerspectiveCamera, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import type { Width } from '../../src/drawing/document';
+import type { Ink } from '../../src/engine/core';
+import { creasedCorners } from '../../src/engine/creased';
+import { CameraRig, fittingDistance } from '../../src/scene/camera_rig';
 import { discs } from '../../src/scene/room_floor';
-import { CameraRig } from '../../src/scene/camera_rig';
-import { creasedCorners } from '../../src/scene/creased';
-import { Tube, type Ink, type Width } from '../../src/scene/tube';
+import { Tube } from '../../src/scene/tube';
 import { random } from './random';
 
 function ink(points: number[][], starts: number[] = [0]): Ink {
@@ -142,6 +144,35 @@ describe('camera', () => {
         expect(Math.abs(p.x)).toBeLessThan(1.001);
         expect(Math.abs(p.y)).toBeLessThan(1.001);
       }
+    }
+  });
+
+  it('stands where all points just fit, however long the model is', () => {
+    const next = random(10), camera = new PerspectiveCamera(35, 1.3), rig = new CameraRig(camera), half = Math.tan((35 / 360) * Math.PI);
+    for (let k = 0; k < 20; k += 1) {
+      const size = [next(), next() * 0.1, 1 + next()], centre = new Vector3(next(), next(), next());
+      const points = Array.from({ length: 300 }, (_, i) => size[i % 3]! * (next() - 0.5));
+      const place = new Matrix4().makeRotationY(next()).setPosition(centre), yaw = 6 * next(), pitch = 2 * next() - 1;
+      const least = fittingDistance(points, place, centre, yaw, pitch, half * 1.3, half * 0.6);
+      rig.frame(centre.x, centre.y, centre.z, 1e-3, yaw, pitch, 0.6, least);
+      let most = 0;
+      for (let at = 0; at < points.length; at += 3) {
+        const p = new Vector3(points[at], points[at + 1], points[at + 2]).applyMatrix4(place).project(camera);
+        most = Math.max(most, Math.abs(p.x), Math.abs(p.y) / 0.6);
+      }
+      expect(most).toBeCloseTo(1, 6);
+    }
+  });
+
+  it('tells when someone has moved the view, until it is framed again', () => {
+    const rig = new CameraRig(new PerspectiveCamera(35, 1));
+    const moves = [() => rig.orbit(0.1, 0), () => rig.pan(0.1, 0), () => rig.zoom(2), () => rig.roll(0.1)];
+    for (const move of moves) {
+      rig.frame(0, 0, 0, 1, 0, 0);
+      rig.scale(1.5);
+      expect(rig.isMoved).toBe(false);
+      move();
+      expect(rig.isMoved).toBe(true);
     }
   });
 

@@ -9,25 +9,11 @@ import { recover } from '../../src/drawing/recover';
 import { MemoryShelf, PatientShelf } from '../../src/drawing/shelf';
 import type { RecordedStroke } from '../../src/engine/core';
 import { makeTarget, shapeModel } from '../../src/engine/model';
-import { Studio, type StudioView } from '../../src/studio';
+import { Studio } from '../../src/studio/studio';
+import { kErasePart } from '../../src/tools/erase';
+import { NullView } from './null_view';
+import { penAt } from './pen_at';
 import { random } from './random';
-
-/** Shows nothing and remembers what it was asked to show. */
-class NullView implements StudioView {
-  drawing: Drawing = [];
-  kept: string[] = [];
-  live = new Set<number>();
-  inkCalls = 0;
-  replayed: string | null = null;
-  showModel(): void { this.drawing = []; }
-  place(): void {}
-  beginInk(copy: number): void { this.live.add(copy); }
-  growInk(): void { this.inkCalls += 1; }
-  keepInk(copy: number, id: string): void { this.live.delete(copy); this.kept.push(id); }
-  dropInk(): void { this.live.clear(); }
-  showDrawing(drawing: Drawing): void { this.drawing = drawing; }
-  showReplay(curve: { technique: string } | null): void { this.replayed = curve?.technique ?? null; }
-}
 
 let core: Mimicry;
 let view: NullView;
@@ -216,11 +202,10 @@ describe('studio', () => {
   it('erasing from press to release is one step, and what was erased is not exported', () => {
     draw(-0.1, 0.1, 0, 60);
     const p = studio.state.now.history.drawing[0]!.curve.point(30).position;
-    studio.set({ tool: 'erase part' });
-    studio.beginErase();
-    studio.eraseAt(...p, 0.02);
-    studio.eraseAt(p[0] + 0.03, p[1], p[2], 0.02);
-    studio.endErase();
+    studio.set({ eraser_m: 0.02 * studio.state.now.modelToWorld[7]! });
+    const use = kErasePart.press(studio, penAt(studio, p))!;
+    use.move(penAt(studio, [p[0] + 0.03, p[1], p[2]]));
+    use.release();
     expect(studio.state.now.history.past).toHaveLength(2);
     const { curves } = keptCurves(studio.state.now.history.drawing);
     expect(curves).toHaveLength(2);
@@ -360,6 +345,26 @@ describe('a damaged drawing file', () => {
     expect(drawing[1]!.kept).toEqual([[0, 29]]);
     expect(drawing[1]!.style.radius_m).toBeGreaterThan(0);
     expect(remarks).toEqual([expect.stringContaining(ids()[1]!)]);
+  });
+
+  it.each<[string, unknown]>([['0', 0], ['negative', -0.003], ['no number', 'thick'], ['none', undefined], ['not finite', 1e999], ['more than the model', 5]])('shows ink of a thickness that is %s as thick as usual, in its colour', (_, radius_m) => {
+    const { drawing, remarks } = open(spoilt((file) => { file.entries[1].style.radius_m = radius_m; file.entries[1].style.color = '#2469d6'; file.entries[1].kept = [[2, 9]]; }));
+    expect(drawing).toHaveLength(3);
+    expect(drawing[1]).toMatchObject({ style: { color: '#2469d6', radius_m: 0.003 }, kept: [[2, 9]] });
+    expect(remarks).toEqual([expect.stringContaining(`the ink of 1 curve (${ids()[1]})`)]);
+    for (const other of [0, 2]) expect(drawing[other]!.style).toEqual(studio.state.now.history.drawing[other]!.style);
+  });
+
+  it('shows ink that is far from the surface on it', () => {
+    const { drawing, remarks } = open(spoilt((file) => { file.entries[1].style.offset_m = -40; }));
+    expect(drawing[1]!.style).toEqual({ ...studio.settings.style, offset_m: 0 });
+    expect(remarks).toHaveLength(1);
+  });
+
+  it('shows ink as thick as the studio can draw it as it is', () => {
+    const { drawing, remarks } = open(spoilt((file) => { file.entries[1].style.radius_m = 0.012; file.entries[1].style.offset_m = 0.02; }));
+    expect(drawing[1]!.style).toMatchObject({ radius_m: 0.012, offset_m: 0.02 });
+    expect(remarks).toEqual([]);
   });
 
   it('of which nothing can be read is refused', () => {

@@ -1,0 +1,205 @@
+#include "lab/replay.h"
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <mimicry/assets/canvas.h>
+#include <mimicry/base/error.h>
+#include <mimicry/io/meshes.h>
+#include <mimicry/io/strokes.h>
+#include <mimicry/io/study.h>
+
+#include "files/file.h"
+#include "lab/drawn_strokes.h"
+#include "lab/measured_rows.h"
+#include "lab/recorded_study.h"
+#include "lab/simulated_strokes.h"
+#include "lab/simulated_study.h"
+#include "support/folder.h"
+
+namespace mimicry::lab {
+namespace {
+
+constexpr const char* kMesh = "shape:torus:24";
+
+std::vector<const TechniqueInfo*> techniques() {
+  return {&find_technique("spraycan"), &find_technique("anchored-closest")};
+}
+
+std::vector<Stroke> drawn_strokes(int count) {
+  SimulatedStrokesOptions options;
+  options.mesh = kMesh;
+  options.rate_hz = 30;
+  options.count = count;
+  return simulated_strokes(options);
+}
+
+std::string write_strokes(const test::TestFolder& folder, int count) {
+  write_file_atomically(folder.path("s.json"), write_strokes(drawn_strokes(count)));
+  return folder.path("s.json");
+}
+
+ReplayOptions options_of(const test::TestFolder& folder, const std::string& out) {
+  ReplayOptions options;
+  options.strokes = {folder.path("s.json")};
+  options.techniques = techniques();
+  options.mesh = kMesh;
+  options.out = folder.path(out);
+  options.threads = 2;
+  return options;
+}
+
+StudyRows rows_of_file(const std::string& file) {
+  return StudyRows(read_rows(read_file(file), "rows.csv"), "rows.csv");
+}
+
+TEST(Replay, ARunThatWasCancelledGoesOnAndGivesTheSameBytes) {
+  const test::TestFolder folder;
+  write_strokes(folder, 3);
+  const ReplayResult whole = replay_strokes(options_of(folder, "whole"));
+  EXPECT_EQ(whole.rejected, 0u);
+  EXPECT_EQ(whole.rows % 6, 0u);
+  ASSERT_GE(whole.rows, 18u);
+
+  std::atomic<int> asked = 0;
+  Monitor monitor;
+  monitor.cancelled = [&] { return ++asked > 4; };
+  std::string note;
+  monitor.note = [&](const std::string& sentence) { note = sentence; };
+  try {
+    replay_strokes(options_of(folder, "cut"), monitor);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+  monitor.cancelled = nullptr;
+  const ReplayResult again = replay_strokes(options_of(folder, "cut"), monitor);
+  EXPECT_NE(note.find("rows are there already"), std::string::npos) << note;
+  EXPECT_EQ(again.rows, whole.rows);
+  for (const char* name : {"rows.csv", "rows.jsonl"})
+    EXPECT_EQ(read_file(folder.path(std::string("cut/") + name)),
+              read_file(folder.path(std::string("whole/") + name)));
+  ReplayOptions other = options_of(folder, "cut");
+  other.misses = MissPolicy::split;
+  EXPECT_THROW(replay_strokes(other), Error);
+}
+
+TEST(Replay, StrokesOfRowsAreFoundAndDrawnAgain) {
+  const test::TestFolder folder;
+  write_strokes(folder, 1);
+  const ReplayResult result = replay_strokes(options_of(folder, "study/replay"));
+  const StudyRows rows = rows_of_file(result.rows_file);
+  // The folder was moved, and the strokes with it.
+  std::filesystem::create_directories(folder.path("moved"));
+  std::filesystem::rename(folder.path("study"), folder.path("moved/study"));
+  std::filesystem::rename(folder.path("s.json"), folder.path("moved/s.json"));
+  StrokeSources sources;
+  add_replay_sources(folder.path("moved/study/replay"), sources);
+  EXPECT_EQ(sources.mesh, kMesh);
+  DrawnStrokes strokes(sources);
+  ASSERT_FALSE(rows.rows().empty());
+  for (const StudyRow& row : rows.rows()) {
+    const DrawnStroke drawn = strokes.find(row);
+    EXPECT_EQ(drawn.stroke.id, row.stroke);
+    EXPECT_GT(drawn.curve.points.size(), 10u);
+    EXPECT_FALSE(drawn.intended.empty());
+  }
+  StrokeSources nowhere;
+  nowhere.mesh = kMesh;
+  nowhere.recordings = folder.path("nowhere");
+  EXPECT_THROW(DrawnStrokes(nowhere).find(rows.rows()[0]), Error);
+}
+
+// A study of two people on one shape with two curves, on the disk.
+SimulatedStudyOptions small_study(const test::TestFolder& folder) {
+  TargetShape shape;
+  shape.name = "torus";
+  shape.scale = 0.4;
+  SimulatedStrokesOptions strokes;
+  strokes.mesh = "shape:torus";
+  strokes.rate_hz = 20;
+  for (const Stroke& stroke : simulated_strokes(strokes))
+    if (shape.curves.size() < 2) shape.curves.emplace_back().points = stroke.intended->points;
+  write_file_atomically(folder.path("t.json"), write_targets({{shape}}, ""));
+  SimulatedStudyOptions options;
+  options.shapes.targets = folder.path("t.json");
+  options.techniques = {"spraycan", "anchored-closest"};
+  options.out = folder.path("study");
+  options.count = 2;
+  options.rate_hz = 30;
+  return options;
+}
+
+TEST(Replay, MeasureAndReplayWriteTheSameColumns) {
+  const test::TestFolder folder;
+  const SimulatedStudyOptions study = small_study(folder);
+  EXPECT_EQ(simulate_study(study), 2u * 2u * 4u);
+
+  ReplayOptions options;
+  options.strokes = {folder.path("study/p00"), folder.path("study/p01")};
+  options.techniques = {&find_technique("spraycan")};
+  options.targets = folder.path("t.json");
+  options.out = folder.path("replay");
+  const ReplayResult result = replay_strokes(options);
+  EXPECT_EQ(result.rows, 16u);
+  EXPECT_EQ(result.rejected, 0u);
+  const StudyRows replayed = rows_of_file(result.rows_file);
+  EXPECT_EQ(replayed.table().columns, row_columns());
+  StrokeSources sources;
+  add_replay_sources(folder.path("replay"), sources);
+  DrawnStrokes strokes(sources);
+  for (const StudyRow& row : replayed.rows()) {
+    EXPECT_EQ(row.stroke, row.recording + "#" + row.index);
+    EXPECT_EQ(row.method, "spraycan");
+    EXPECT_EQ(row.shape, "torus");
+    EXPECT_GT(strokes.find(row).curve.points.size(), 5u);
+  }
+}
+
+TEST(RecordedStudy, MethodsAreCalledByTheirNames) {
+  const test::TestFolder folder;
+  const SimulatedStudyOptions study = small_study(folder);
+  simulate_study(study);
+  std::filesystem::create_directories(folder.path("shapes"));
+  const NamedMesh mesh = load_mesh("shape:torus");
+  RecordedStudyOptions options;
+  options.participants = {folder.path("study/p00"), folder.path("nobody")};
+  options.shapes = folder.path("shapes");
+  options.targets = folder.path("t.json");
+  // Without the mesh every recording is left out, with its names.
+  const RecordedStudy none = measure_recordings(options);
+  EXPECT_TRUE(none.rows.empty());
+  ASSERT_EQ(none.rejected.size(), 3u);
+  EXPECT_EQ(none.rejected[0].participant, folder.path("nobody"));
+  EXPECT_EQ(none.rejected[1].recording.substr(1), "_0.json");
+  EXPECT_EQ(none.rejected[1].shape, "torus");
+
+  write_file_atomically(folder.path("shapes/torus.obj"), write_mesh(mesh.mesh, MeshFormat::obj));
+  const RecordedStudy measured = measure_recordings(options);
+  ASSERT_EQ(measured.rows.size(), 8u);
+  EXPECT_EQ(measured.rejected.size(), 1u);
+  StrokeSources sources;
+  sources.recordings = folder.path("study");
+  sources.targets = options.targets;
+  DrawnStrokes strokes(sources);
+  std::string table = rows_heading();
+  for (const MeasuredRow& row : measured.rows) {
+    EXPECT_EQ(row.participant, "p00");
+    EXPECT_EQ(row.stroke, "");
+    EXPECT_EQ(row.method, row.method_number == 0 ? "spraycan" : "anchored-closest");
+    EXPECT_EQ(row.recording, std::to_string(row.method_number) + "_0.json");
+    EXPECT_EQ(row.shape, "torus");
+    EXPECT_TRUE(row.simulated);
+    table += csv_row(row);
+  }
+  const StudyRows read(read_rows(table, "rows.csv"), "rows.csv");
+  for (const StudyRow& row : read.rows())
+    EXPECT_GT(strokes.find(row).curve.points.size(), 5u) << row.name();
+}
+
+}  // namespace
+}  // namespace mimicry::lab

@@ -1,0 +1,11 @@
+# Two programs print the same, and something: -Dfirst= -Dsecond=.
+foreach(program first second)
+  execute_process(COMMAND "${${program}}" OUTPUT_VARIABLE ${program}_output COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+string(LENGTH "${first_output}" length)
+if(length LESS 100000)
+  message(FATAL_ERROR "${first}: prints ${length} bytes")
+endif()
+if(NOT first_output STREQUAL second_output)
+  message(FATAL_ERROR "${first} and ${second}: print other answers")
+endif()
