@@ -7,6 +7,7 @@
 
 #include "geodesic/exact_state.h"
 #include "geodesic/plane.h"
+#include "geodesic/tolerances.h"
 
 namespace mimicry {
 
@@ -53,8 +54,8 @@ void ExactGeodesics::State::add_window(Index h, double begin, double end, double
   const EdgeFrame& f = frame(h);
   begin = std::max(begin, 0.0);
   end = std::min(end, f.length);
-  if (!(end - begin > 1e-11 * f.length)) return;
-  y = std::max(y, 1e-13 * f.length);
+  if (!(end - begin > kLeastWidth * f.length)) return;
+  y = std::max(y, kLeastHeight * f.length);
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
   const double sigma = lists.sigma(root);
   const auto is_nearer = [&](double around, double place) {

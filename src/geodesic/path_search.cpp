@@ -2,6 +2,8 @@
 
 #include <mimicry/geodesic/paths.h>
 
+#include "geodesic/tolerances.h"
+
 namespace mimicry {
 
 // Relative differences below this are rounding.
@@ -51,8 +53,8 @@ void PathSearch::reach(Index v, double distance, Index leaving, Index parent) {
 void PathSearch::add_window(Index h, double length, double begin, double end, double x, double y,
                             double sigma, Index parent) {
   const Index entered = half_edges_.twin(h);
-  if (entered < 0 || !(end - begin > 1e-11 * length)) return;
-  y = std::max(y, 1e-13 * length);
+  if (entered < 0 || !(end - begin > kLeastWidth * length)) return;
+  y = std::max(y, kLeastHeight * length);
   const double d_begin = sigma + std::sqrt((begin - x) * (begin - x) + y * y);
   const double d_end = sigma + std::sqrt((end - x) * (end - x) + y * y);
   // Xin and Wang's filter: from an end of the edge everything behind the window is nearer.
@@ -100,7 +102,7 @@ void PathSearch::expand(Index number) {
   const double right_length = (c - b).norm();
   // From the shorter side: the longer one nearly along the edge leaves a height of rounding.
   const double cy = std::max(along.cross(left_length < right_length ? to_apex : Vec3(c - b)).norm(),
-                             1e-13 * std::max({w.length, left_length, right_length}));
+                             kLeastHeight * std::max({w.length, left_length, right_length}));
   const double qx = cx - w.x;
   const double qy = cy + w.y;
   // > 0: the apex lies to the left of the ray.

@@ -7,14 +7,13 @@
 
 #include "geodesic/plane.h"
 #include "geodesic/site.h"
+#include "geodesic/tolerances.h"
 
 namespace mimicry {
 namespace {
 
 // A path closer to a vertex than this part of the edge passes through it.
 constexpr double kAtVertex = 1e-10;
-// Height of a face without area, relative to its longest edge.
-constexpr double kLeastHeight = 1e-13;
 
 // A face in the plane: the tail of half-edge `base` at (0, 0), its head on the x axis. x, y are the
 // axes in space.

@@ -7,11 +7,9 @@
 
 #include <mimicry/base/error.h>
 
-namespace mimicry {
+#include "geodesic/tolerances.h"
 
-// A face without area gets this height relative to its longest edge: above rounding, and far below
-// what a distance shows.
-static constexpr double kLeastFrameHeight = 1e-13;
+namespace mimicry {
 
 SurfaceFrames::SurfaceFrames(const TriangleMesh& mesh, const HalfEdges& half_edges) {
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
@@ -45,7 +43,7 @@ SurfaceFrames::SurfaceFrames(const TriangleMesh& mesh, const HalfEdges& half_edg
       EdgeFrame& frame = frames[static_cast<std::size_t>(3 * f + k)];
       const Vec3 along = mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k);
       const Vec3 to_apex = mesh.corner(f, (k + 2) % 3) - mesh.corner(f, k);
-      const double least = std::max(kLeastFrameHeight * longest, 1e-300);
+      const double least = std::max(kLeastHeight * longest, 1e-300);
       frame.apex_x = frame.length > 0.0 ? along.dot(to_apex) / frame.length : 0.0;
       frame.apex_y = std::max(frame.length > 0.0 ? area / frame.length : longest, least);
       corner_angles[static_cast<std::size_t>(3 * f + k)] =

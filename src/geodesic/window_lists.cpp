@@ -4,12 +4,11 @@
 #include <array>
 #include <cstddef>
 
+#include "geodesic/tolerances.h"
+
 namespace mimicry {
 namespace {
 
-// Windows narrower than this part of their edge are dropped: their neighbours' distances, taken
-// around the corner, differ from theirs by the square of it.
-constexpr double kLeastWidth = 1e-11;
 // Distances closer than this, relative to themselves and the edge, are equal: some roundings.
 constexpr double kTie = 1e-12;
 
