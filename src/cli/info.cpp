@@ -156,12 +156,21 @@ void print_values(const char* what, const CornerValues<N>& values) {
                 corners_with(values), values.corners.size());
 }
 
+// A name's first letters, of one that fills the screen.
+std::string shortened(std::string name) {
+  constexpr std::size_t kMost = 60;
+  if (name.size() <= kMost) return name;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;  // within one
+  return name.substr(0, end) + "...";
+}
+
 void print_labels(const char* what, const FaceLabels& labels) {
   constexpr std::size_t kMost = 20;  // of a file with thousands
   if (labels.empty()) return;
   std::printf("  %-34s %zu: ", what, labels.names.size());
   for (std::size_t n = 0; n < std::min(labels.names.size(), kMost); ++n)
-    std::printf("%s%s", n > 0 ? ", " : "", one_line(labels.names[n]).c_str());
+    std::printf("%s%s", n > 0 ? ", " : "", shortened(one_line(labels.names[n])).c_str());
   std::printf("%s\n", labels.names.size() > kMost ? ", ..." : "");
 }
 

@@ -15,7 +15,7 @@ typename CornerValueBuilder<N>::Value CornerValueBuilder<N>::none() {
 
 template <std::size_t N>
 bool CornerValueBuilder<N>::is_none(const Value& value) {
-  return std::any_of(value.begin(), value.end(), [](float x) { return std::isnan(x); });
+  return std::any_of(value.begin(), value.end(), [](float x) { return !std::isfinite(x); });
 }
 
 template <std::size_t N>

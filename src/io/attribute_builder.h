@@ -34,7 +34,7 @@ class CornerValueBuilder {
     return last;
   }
   Index count() const { return static_cast<Index>(values_.size()); }
-  /// Values of corners that name none of their own; a component that is NaN: none.
+  /// Values of corners that name none of their own; a component that is not finite: none.
   void set_of_vertex(Index vertex, const Value& value) {
     if (values_.size() <= at(vertex)) values_.resize(at(vertex) + 1, none());
     values_[at(vertex)] = value;

@@ -70,7 +70,11 @@ Index GltfAttributes::add_new(const GltfPrimitive& primitive, std::size_t vertic
   const std::size_t number = gltf_.whole(attributes, name.c_str(), primitive.place);
   const auto known = of_accessor_.find({name, number, vertices});
   if (known != of_accessor_.end()) return known->second;
-  const Json* type = GltfJson::find(gltf_.item("accessors", number, place), "type");
+  const Json& accessor = gltf_.item("accessors", number, place);
+  const Json* components = GltfJson::find(accessor, "componentType");
+  if (components && *components == kGltfUnsignedInt)
+    gltf_.fail(place, "has whole numbers of 32 bits, which glTF does not allow");
+  const Json* type = GltfJson::find(accessor, "type");
   const char* wanted = name != "COLOR_0" ? "VEC2" : type && *type == "VEC3" ? "VEC3" : "VEC4";
   const Index first = add_all(GltfAccessor(gltf_, buffers_, number, wanted, place));
   of_accessor_[{name, number, vertices}] = first;
@@ -82,7 +86,13 @@ void GltfAttributes::begin_material(const GltfPrimitive& primitive) {
   const Json* material = GltfJson::find(*primitive.json, "material");
   const Json& all = gltf_.array("materials");
   Index number = kNone;
-  if (material && material->is_number_unsigned() && material->get<std::size_t>() < all.size()) {
+  const bool is_there =
+      material && material->is_number_unsigned() && material->get<std::size_t>() < all.size();
+  if (material && !is_there && without_material_.insert(&primitive).second)
+    gltf_.note(primitive.place + ": material " +
+               (material->is_number() ? material->dump() : std::string("that is no number")) +
+               " is passed over: there are " + std::to_string(all.size()));
+  if (is_there) {
     const auto index = material->get<std::size_t>();
     const std::string name = name_in(&all[index]);
     number = materials.number(name.empty() ? "material " + std::to_string(index) : name);

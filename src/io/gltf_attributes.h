@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -44,6 +45,7 @@ class GltfAttributes {
   // Uses of a mesh share its values, and so do primitives that name the same accessor for as many
   // vertices.
   std::map<std::pair<const GltfPrimitive*, std::string>, Index> of_primitive_;
+  std::set<const GltfPrimitive*> without_material_;  // that was told
   std::map<std::tuple<std::string, std::size_t, std::size_t>, Index> of_accessor_;
 };
 

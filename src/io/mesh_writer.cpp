@@ -47,7 +47,7 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
     case MeshFormat::obj:
       return write_obj(mesh, note);
     case MeshFormat::ply:
-      return write_ply(mesh, options.text);
+      return write_ply(mesh, options.text, note);
     case MeshFormat::stl:
       if (mesh.attributes()) note("STL holds no attributes of meshes; they are left out");
       return write_stl(mesh, options.text);

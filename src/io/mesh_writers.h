@@ -12,7 +12,7 @@ namespace mimicry {
 // `note` is told which attributes the format does not hold; it can be called.
 std::string write_obj(const TriangleMesh& mesh, const WriteNote& note);
 std::string write_off(const TriangleMesh& mesh, const WriteNote& note);
-std::string write_ply(const TriangleMesh& mesh, bool text);
+std::string write_ply(const TriangleMesh& mesh, bool text, const WriteNote& note);
 std::string write_stl(const TriangleMesh& mesh, bool text);
 std::string write_glb(const TriangleMesh& mesh, const WriteNote& note);
 

@@ -167,9 +167,29 @@ class PlyWriter {
   std::vector<Labels> labels_;
 };
 
+template <std::size_t N>
+bool is_part(const CornerValues<N>& values, std::size_t face) {
+  const auto first = values.corners.begin() + static_cast<std::ptrdiff_t>(3 * face);
+  const auto missing = std::count(first, first + 3, kNone);
+  return missing == 1 || missing == 2;
+}
+
+template <std::size_t N>
+void tell_of_parts(const CornerValues<N>& values, const char* what, const WriteNote& note) {
+  std::size_t parts = 0;
+  for (std::size_t f = 0; f < values.corners.size() / 3; ++f) parts += is_part(values, f) ? 1 : 0;
+  if (parts > 0)
+    note(std::string("PLY holds ") + what + " of whole faces; those of " + std::to_string(parts) +
+         " faces of which a corner has none are left out");
+}
+
 }  // namespace
 
-std::string write_ply(const TriangleMesh& mesh, bool text) {
+std::string write_ply(const TriangleMesh& mesh, bool text, const WriteNote& note) {
+  if (const auto& attributes = mesh.attributes()) {
+    tell_of_parts(attributes->texcoords, "texture coordinates", note);
+    tell_of_parts(attributes->colors, "colours", note);
+  }
   return PlyWriter(mesh, text).write();
 }
 

@@ -258,6 +258,33 @@ TEST(MeshAttributesInFiles, WritersSayWhatTheyLeaveOut) {
   EXPECT_EQ(notes(MeshFormat::ply), "");
 }
 
+TEST(MeshAttributesInFiles, PlyTellsOfFacesOfWhichACornerHasNoValue) {
+  TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}});
+  MeshAttributes attributes;
+  attributes.texcoords.values = {{0.0f, 0.0f}, {1.0f, 0.5f}};
+  attributes.texcoords.corners = {0, 1, 1, 0, kNone, 1};
+  mesh.set_attributes(std::make_shared<const MeshAttributes>(attributes));
+  std::vector<std::string> notes;
+  MeshWriteOptions options;
+  options.note = [&](const std::string& note) { notes.push_back(note); };
+  const Carried back = read_carried(write_mesh(mesh, MeshFormat::ply, options), MeshFormat::ply);
+  EXPECT_THAT(notes,
+              ElementsAre(HasSubstr("texture coordinates of whole faces; those of 1 faces")));
+  const Texcoord none{-1.0f, -1.0f};
+  EXPECT_THAT(at_corners(back.attributes().texcoords, 2),
+              ElementsAre(Texcoord{0.0f, 0.0f}, Texcoord{1.0f, 0.5f}, Texcoord{1.0f, 0.5f}, none,
+                          none, none));
+}
+
+TEST(MeshAttributesInFiles, ValuesThatAreNotFiniteAreNone) {
+  const std::string obj =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e400 0\nvt 0 1\nvt nan 1\nf 1/1 2/2 3/3\n";
+  const Carried read = read_carried(obj, MeshFormat::obj);
+  const Texcoord none{-1.0f, -1.0f};
+  EXPECT_THAT(at_corners(read.attributes().texcoords, 1),
+              ElementsAre(none, Texcoord{0.0f, 1.0f}, none));
+}
+
 const std::string kPlyVertices =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
@@ -352,6 +379,20 @@ TEST(MeshAttributesInFiles, GltfAttributesThatCannotBeReadAreNotedOnce) {
                        g.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = "x";
                      }),
                      "TEXCOORD_0 is passed over");
+  expect_only_colors(spoil([](GltfBuilder& g) { g.root["accessors"][1]["componentType"] = 5125; }),
+                     "whole numbers of 32 bits");
+}
+
+TEST(MeshAttributesInFiles, GltfMaterialsThatAreNotThereAreNotedOnce) {
+  GltfBuilder gltf = textured_triangle();
+  gltf.node({{"mesh", 0}});
+  gltf.node({{"mesh", 0}});
+  gltf.root["meshes"][0]["primitives"][0]["material"] = 77;
+  const Carried outcome = read_carried(gltf.glb(), MeshFormat::glb);
+  EXPECT_THAT(
+      outcome.notes,
+      ElementsAre(HasSubstr("mesh 0 primitive 0: material 77 is passed over: there are 2")));
+  EXPECT_TRUE(outcome.attributes().materials.empty());
 }
 
 // Primitives share their positions, and vertices with them, whatever else differs.

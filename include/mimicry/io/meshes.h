@@ -99,7 +99,8 @@ struct MeshWriteOptions {
 /// GLB. O(#V + #F).
 ///
 /// The mesh's attributes are written as far as the format holds them (docs/formats.md, "What meshes
-/// carry"), and read back as they were; a mesh without any gives the bytes of its geometry alone.
+/// carry"), and read back as they were, line breaks in names aside; a mesh without any gives the
+/// bytes of its geometry alone.
 std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
                        const MeshWriteOptions& options = {});
 
