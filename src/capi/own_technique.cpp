@@ -142,6 +142,10 @@ TechniqueInfo row_of(const mimicry_own_technique& own) {
   row.description = copied(own.description);
   row.source = "-";
   row.color = own.color;
+  if (own.steering != MIMICRY_AIMED && own.steering != MIMICRY_MOVED)
+    throw Error(ErrorKind::invalid_input, "technique '" + row.name +
+                                              "' is steered in no known way (" +
+                                              std::to_string(static_cast<int>(own.steering)) + ")");
   row.steering = own.steering == MIMICRY_AIMED ? Steering::aims : Steering::moves;
   row.anchored = own.anchored != 0;
   row.needs_bake = own.needs_bake != 0;
@@ -154,7 +158,8 @@ TechniqueInfo row_of(const mimicry_own_technique& own) {
     throw Error(ErrorKind::invalid_input,
                 "technique '" + row.name + "' asks for " + std::to_string(own.memory_size) +
                     " bytes of memory; give at most " + std::to_string(kMostMemory));
-  if (!own.step) throw Error(ErrorKind::invalid_input, "step is NULL");
+  if (!own.step)
+    throw Error(ErrorKind::invalid_input, "technique '" + row.name + "': step is NULL");
   if (own.option_count > 0) require(own.options, "options");
   const auto count = static_cast<std::size_t>(own.option_count);
   row.default_options = Block(count * kOptionBytes);

@@ -81,6 +81,12 @@ std::size_t bytes_of(OptionKind kind) {
   return sizeof(double);
 }
 
+std::size_t alignment_of(OptionKind kind) {
+  return kind == OptionKind::boolean  ? alignof(bool)
+         : kind == OptionKind::choice ? alignof(std::int32_t)
+                                      : alignof(double);
+}
+
 }  // namespace
 
 std::string_view kind_name(OptionKind kind) {
@@ -142,8 +148,16 @@ void require_sound_option(const TechniqueInfo& technique, const OptionInfo& opti
     throw Error(ErrorKind::invalid_input, label + " lies outside the block of options, which has " +
                                               std::to_string(size) +
                                               " bytes; give the offset of its member");
+  if (option.offset % alignment_of(option.kind) != 0)
+    throw Error(ErrorKind::invalid_input, label + " stands at byte " +
+                                              std::to_string(option.offset) +
+                                              ", where no member of its kind can; give the offset "
+                                              "of its member");
   if (option.kind == OptionKind::choice && option.choices.empty())
     throw Error(ErrorKind::invalid_input, label + " is a choice without names of its values");
+  for (const std::string& choice : option.choices)
+    if (std::count(option.choices.begin(), option.choices.end(), choice) > 1)
+      throw Error(ErrorKind::invalid_input, label + " has two choices '" + choice + "'");
   if (std::isnan(option.lowest) || std::isnan(option.highest) || option.lowest > option.highest)
     throw Error(ErrorKind::invalid_input, label + ": its lowest value is above its highest");
   const OptionValue value = read(option, technique.default_options);

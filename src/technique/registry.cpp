@@ -62,6 +62,7 @@ bool is_word(std::string_view name) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
   };
   return !name.empty() && name.front() != '-' && name.back() != '-' &&
+         name.find("--") == std::string_view::npos &&
          std::all_of(name.begin(), name.end(), is_fine);
 }
 
@@ -70,7 +71,9 @@ void require_sound(const TechniqueInfo& info) {
     throw Error(ErrorKind::invalid_input, "technique '" + info.name + "' " + why);
   };
   if (!is_word(info.name))
-    refuse("cannot be registered: write its name in lower case letters, digits and '-'");
+    refuse(
+        "cannot be registered: write its name as words in lower case letters and digits, joined by "
+        "'-'");
   if (!info.step) refuse("has no step function");
   if (info.color > 0xffffff) refuse("has a colour that is not 0xrrggbb");
   for (std::size_t i = 0; i < info.options.size(); ++i) {

@@ -221,7 +221,9 @@ TEST(CApiTechniques, WhatIsNotSoundIsRefused) {
   wrong("exists already", [](Row& r) { r.own.name = "snap"; });
   wrong("lower case", [](Row& r) { r.own.name = "No Name"; });
   wrong("name is NULL", [](Row& r) { r.own.name = nullptr; });
-  wrong("step is NULL", [](Row& r) { r.own.step = nullptr; });
+  wrong("steered in no known way",
+        [](Row& r) { r.own.steering = static_cast<mimicry_steering>(5); });
+  wrong("'test-unsound': step is NULL", [](Row& r) { r.own.step = nullptr; });
   wrong("options is NULL", [](Row& r) { r.own.options = nullptr; });
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = -1; });
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = 65; });

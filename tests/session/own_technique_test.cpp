@@ -168,6 +168,7 @@ TEST(OwnTechnique, WhatIsNotSoundIsRefused) {
   EXPECT_THAT(refusal(lift_row("Test")), HasSubstr("lower case"));
   EXPECT_THAT(refusal(lift_row("")), HasSubstr("lower case"));
   EXPECT_THAT(refusal(lift_row("two words")), HasSubstr("lower case"));
+  EXPECT_THAT(refusal(lift_row("two--words")), HasSubstr("lower case"));
   TechniqueInfo row = lift_row("test-unsound");
   row.step = nullptr;
   EXPECT_THAT(refusal(row), HasSubstr("no step"));
@@ -177,6 +178,12 @@ TEST(OwnTechnique, WhatIsNotSoundIsRefused) {
   row = lift_row("test-unsound");
   row.options[0].offset = sizeof(LiftOptions) - 8;
   EXPECT_THAT(refusal(row), HasSubstr("outside the block"));
+  row = lift_row("test-unsound");
+  row.options[1].offset += 1;
+  EXPECT_THAT(refusal(row), HasSubstr("where no member of its kind can"));
+  row = lift_row("test-unsound");
+  row.options[3].choices = {"frame", "frame"};
+  EXPECT_THAT(refusal(row), HasSubstr("two choices 'frame'"));
   row = lift_row("test-unsound");
   row.options[1].lowest = 1.0;
   EXPECT_THAT(refusal(row), HasSubstr("its default"));
