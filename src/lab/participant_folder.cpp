@@ -90,16 +90,16 @@ std::vector<RecordedStroke> ParticipantFolder::read(const RecordingName& recordi
   return read_recording(read_file(path(recording), Accept::regular), title(recording));
 }
 
-ParticipantWriter::ParticipantWriter(const std::string& folder) : folder_(folder) {
-  make_folder(folder);
-}
+ParticipantWriter::ParticipantWriter(const std::string& folder) : folder_(folder) {}
 
 void ParticipantWriter::write(const RecordingName& recording,
                               std::span<const RecordedStroke> strokes) const {
+  make_folder(folder_);
   write_file_atomically(beside(folder_, recording.file()), write_recording(strokes));
 }
 
 void ParticipantWriter::finish(const StudySequence& sequence) const {
+  make_folder(folder_);
   write_file_atomically(beside(folder_, kSequenceName), write_study_sequence(sequence));
 }
 

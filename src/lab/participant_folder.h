@@ -58,9 +58,10 @@ class ParticipantFolder {
 /// Writes such a folder. Const members may be called from several threads for different files.
 class ParticipantWriter {
  public:
-  /// Makes the folder. Throws Error(io), as the members do.
+  /// The folder is made with its first file.
   explicit ParticipantWriter(const std::string& folder);
 
+  /// Throws Error(io), and so does `finish`.
   void write(const RecordingName& recording, std::span<const RecordedStroke> strokes) const;
   /// Comes last: a folder that has its sequence is whole.
   void finish(const StudySequence& sequence) const;

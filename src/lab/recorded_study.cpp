@@ -116,15 +116,21 @@ class Recording {
   }
 
  private:
+  // Of a row, measured or rejected: whose stroke it is.
+  template <class Row>
+  void say_where(Row& row, Index method, const std::string& word) const {
+    row.participant = folder_.name();
+    row.recording = name_.file();
+    name_method(method, word, row.method);
+    row.method_number = method;
+    row.shape = shape_.name;
+    row.shape_number = name_.shape;
+  }
+
   void reject(Index method, const std::string& word, const std::string& index,
               const std::string& reason) {
     RejectedStroke& rejected = outcome_.rejected.emplace_back();
-    rejected.participant = folder_.name();
-    rejected.recording = name_.file();
-    name_method(method, word, rejected.method);
-    rejected.method_number = method;
-    rejected.shape = shape_.name;
-    rejected.shape_number = name_.shape;
+    say_where(rejected, method, word);
     rejected.index = index;
     rejected.reason = reason;
   }
@@ -167,12 +173,7 @@ class Recording {
     MeasuredRow row;
     row.measures =
         measure(shape_.target->surface(), intended, curve, motion, {options_.join_pieces});
-    row.participant = folder_.name();
-    row.recording = name_.file();
-    name_method(method, word, row.method);
-    row.method_number = method;
-    row.shape = shape_.name;
-    row.shape_number = name_.shape;
+    say_where(row, method, word);
     row.index = index;
     row.curve = std::to_string(trial.curve);
     row.repetition = trial.repeat;

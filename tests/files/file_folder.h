@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <mimicry/base/error.h>
+
+#include "files/beside.h"
+
 namespace mimicry {
 
 /// A new folder, gone at the end of the test.
@@ -19,6 +23,16 @@ class FileTest : public testing::Test {
   std::ptrdiff_t entries() const {
     return std::distance(std::filesystem::directory_iterator(folder_),
                          std::filesystem::directory_iterator());
+  }
+
+  /// Why a file beside another is not read; invalid_input, which is no reason of its: it is.
+  static ErrorKind refusal_beside(const std::string& file, const char* name) {
+    try {
+      read_beside(file, name);
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::invalid_input;
   }
 
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /

@@ -31,6 +31,7 @@ TEST(ParticipantFolder, WhatIsWrittenIsReadBack) {
   const std::vector<RecordedStroke> strokes = {stroke_of(3), stroke_of(5)};
   const StudySequence sequence{{1}, {4}, {{0, 1, 0, 2, 3, 2}}};
   const ParticipantWriter writer(folder.path("study/p07"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("study/p07")));  // nothing came there yet
   writer.write({1, 4}, strokes);
   // Without its sequence it is not whole.
   EXPECT_THROW(ParticipantFolder(folder.path("study/p07")), Error);
