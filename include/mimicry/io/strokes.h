@@ -62,9 +62,9 @@ struct PointRows {
   std::vector<std::size_t> lines;  ///< of the file, from 1, of each point
 };
 
-/// The points of a CSV text (`read_csv`): a heading that names the columns x, y and z, in any order
+/// The points of a CSV text: a heading that names the columns x, y and z, in any order
 /// and among others, which are passed over; then a row a point. `nan` and `inf` are numbers. `name`
-/// stands in the error messages. Throws as `read_csv` does, and Error(invalid_input) where a column
+/// stands in the error messages. Throws Error(invalid_input) where the text is no CSV, a column
 /// is missing or, with the line, a cell is not a number. O(size).
 PointRows read_points_csv(std::string_view bytes, std::string_view name);
 

@@ -68,7 +68,7 @@ IntendedCurve intended_curve(const TriangleMesh& mesh, const TargetCurve& curve,
 struct Filters {
   bool too_short = false;  ///< |Q| below half of L_X
   bool noisy = false;      ///< some |p_i - p_{i-1}| above kNoisyStep_m
-  bool inverted = false;   ///< drawn the other way round: `inversions` above l (l + 1) / 4
+  bool inverted = false;   ///< drawn the other way round: points out of order above l (l + 1) / 4
   bool passed() const { return !too_short && !noisy && !inverted; }
 };
 inline constexpr double kNoisyStep_m = 0.05;

@@ -114,7 +114,7 @@ struct SampledTargets {
   SamplingCounts counts;
 };
 
-/// `count` target curves: cubic B-splines on the surface (`clamped_b_spline_curve`) that start and
+/// `count` target curves: cubic B-splines on the surface, with clamped ends, that start and
 /// end in their first and last control. Refused and drawn anew are splines with a step on the
 /// surface longer than a twentieth of their length or none at all, and curves that meet themselves
 /// (`self_crossing`). metres_per_unit is for the keypoints. Throws Error(invalid_input) for

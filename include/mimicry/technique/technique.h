@@ -104,11 +104,11 @@ struct OptionDetails {
 /// A member of the struct of options as an option: bool, double, Vec3 or std::array<double, 3>, or
 /// an enumeration of 32 bits with `choices`. The member may be a base's. Numbers are 0 to 1 where
 /// nothing else is said, directions -1 to 1.
-template <class TechniqueOptions, class Owner, class Value>
+template <class OwnOptions, class Owner, class Value>
 OptionInfo option(std::string name, Value Owner::*member, std::string description,
                   OptionDetails details = {}) {
-  static_assert(std::is_base_of_v<Owner, TechniqueOptions>);
-  const TechniqueOptions block{};
+  static_assert(std::is_base_of_v<Owner, OwnOptions>);
+  const OwnOptions block{};
   OptionInfo info;
   info.name = std::move(name);
   info.description = std::move(description);
