@@ -73,11 +73,25 @@ bool StripPath::find_strip(const SurfacePoint& from, const SurfacePoint& to) {
 
 // The shortest path within the strip: bends_, params_ and length_.
 void StripPath::pull_tight(const SurfacePoint& from, const SurfacePoint& to) {
+  const auto [start, end] = unfold(from, to);
+  find_bends(start, end);
+  cross_edges(start, end);
+  // Measured in space: where an edge has no length the unfolding has no direction to go on in.
+  length_ = 0.0;
+  Vec3 last = mesh_.position(from);
+  for (std::size_t i = 0; i < strip_.size(); ++i) {
+    const Vec3 next = mimicry::position(mesh_, Crossing{strip_[i], params_[i]});
+    length_ += (next - last).norm();
+    last = next;
+  }
+  length_ += (mesh_.position(to) - last).norm();
+}
+
+// heads_ and tails_: the strip laid out in the plane; and where its ends lie there.
+std::pair<Vec2, Vec2> StripPath::unfold(const SurfacePoint& from, const SurfacePoint& to) {
   const std::size_t n = strip_.size();
   heads_.resize(n);
   tails_.resize(n);
-  params_.resize(n);
-  bends_.clear();
   // Lays out the face behind each crossed edge: a point given in 3-D, above or below the edge.
   const auto lay = [&](Index h, const Vec2& tail, const Vec2& head, const Vec3& p,
                        double side) -> Vec2 {
@@ -112,9 +126,13 @@ void StripPath::pull_tight(const SurfacePoint& from, const SurfacePoint& to) {
       heads_[i + 1] = heads_[i];
     }
   }
-  const Vec2 end = lay(strip_[n - 1], tails_[n - 1], heads_[n - 1], mesh_.position(to), -1.0);
+  return {start, lay(strip_[n - 1], tails_[n - 1], heads_[n - 1], mesh_.position(to), -1.0)};
+}
 
-  // The funnel: going out of a face its half-edge's head is on the left.
+// The funnel: going out of a face its half-edge's head is on the left.
+void StripPath::find_bends(const Vec2& start, const Vec2& end) {
+  const std::size_t n = strip_.size();
+  bends_.clear();
   Vec2 apex = start;
   Vec2 left = heads_[0];
   Vec2 right = tails_[0];
@@ -150,7 +168,12 @@ void StripPath::pull_tight(const SurfacePoint& from, const SurfacePoint& to) {
       }
     }
   }
+}
 
+// params_: where the way over the bends crosses each edge.
+void StripPath::cross_edges(const Vec2& start, const Vec2& end) {
+  const std::size_t n = strip_.size();
+  params_.resize(n);
   Vec2 a = start;
   std::size_t portal = 0;
   for (std::size_t k = 0; k <= bends_.size(); ++k) {
@@ -169,15 +192,6 @@ void StripPath::pull_tight(const SurfacePoint& from, const SurfacePoint& to) {
     }
     a = b;
   }
-  // Measured in space: where an edge has no length the unfolding has no direction to go on in.
-  length_ = 0.0;
-  Vec3 last = mesh_.position(from);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 next = mimicry::position(mesh_, Crossing{strip_[i], params_[i]});
-    length_ += (next - last).norm();
-    last = next;
-  }
-  length_ += (mesh_.position(to) - last).norm();
 }
 
 double StripPath::corner_angle(Index h) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <mimicry/mesh/half_edges.h>
@@ -30,6 +31,9 @@ class StripPath {
 
   bool find_strip(const SurfacePoint& from, const SurfacePoint& to);
   void pull_tight(const SurfacePoint& from, const SurfacePoint& to);
+  std::pair<Vec2, Vec2> unfold(const SurfacePoint& from, const SurfacePoint& to);
+  void find_bends(const Vec2& start, const Vec2& end);
+  void cross_edges(const Vec2& start, const Vec2& end);
   bool move_around_a_vertex(const SurfacePoint& from, const SurfacePoint& to);
   double corner_angle(Index h) const;
 
