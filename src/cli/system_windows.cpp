@@ -5,8 +5,9 @@
 
 #include <fcntl.h>
 #include <io.h>
-#include <shellapi.h>
 #include <windows.h>
+
+#include <shellapi.h>  // stands on windows.h
 
 #include "cli/system.h"
 
