@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "assets/meshes.h"
 #include "assets/work.h"
 #include "files/file.h"
+#include "support/environment.h"
 #include "support/folder.h"
 
 namespace mimicry {
@@ -54,7 +54,7 @@ TEST(Meshes, ShapesFilesAndFoldersOfShapes) {
 
 TEST(Bakes, AreKeptAndFoundAgainAndCanBeCancelled) {
   const test::TestFolder folder;
-  ::setenv("MIMICRY_CACHE", folder.path("cache").c_str(), 1);
+  test::TestVariable cache("MIMICRY_CACHE", folder.path("cache"));
   const TriangleMesh mesh = load_mesh("shape:torus:12").mesh;
   BakeSettings settings;
   settings.options.samples = 40;
@@ -86,13 +86,13 @@ TEST(Bakes, AreKeptAndFoundAgainAndCanBeCancelled) {
   EXPECT_FALSE(bake_mesh(mesh, settings).was_kept);
 
   // A bake that cannot be kept is told of, and is there all the same.
-  ::setenv("MIMICRY_CACHE", "/proc/nowhere", 1);
+  write_file_atomically(folder.path("file"), "");
+  cache.set(folder.path("file/cache"));
   settings.use_cache = true;
   EXPECT_TRUE(notes.empty());
   EXPECT_FALSE(bake_mesh(mesh, settings, monitor).was_kept);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("not kept"), std::string::npos);
-  ::unsetenv("MIMICRY_CACHE");
 }
 
 TEST(Techniques, AreChosenInTheRegistrysOrder) {

@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -12,6 +11,7 @@
 #include <mimicry/session/stroke_session.h>
 
 #include "files/file.h"
+#include "support/environment.h"
 #include "support/folder.h"
 
 namespace mimicry {
@@ -32,7 +32,7 @@ Stroke beside_the_torus() {
 
 TEST(Files, ACanvasHasTheBakeThatItsTechniqueNeeds) {
   const test::TestFolder folder;
-  ::setenv("MIMICRY_CACHE", folder.path("cache").c_str(), 1);
+  const test::TestVariable cache("MIMICRY_CACHE", folder.path("cache"));
   const Canvas plain = load_canvas("shape:torus:12", find_technique("snap"));
   EXPECT_TRUE(plain.target);
   EXPECT_FALSE(plain.projector);
@@ -55,7 +55,6 @@ TEST(Files, ACanvasHasTheBakeThatItsTechniqueNeeds) {
       make_canvas(load_target("shape:torus:12"), mimicry, monitor, *kept.begin());
   EXPECT_EQ(from_file.projector.embedding().mesh_hash, baked.projector.embedding().mesh_hash);
   EXPECT_THROW(make_canvas(load_target("shape:sphere:8"), mimicry, monitor, *kept.begin()), Error);
-  ::unsetenv("MIMICRY_CACHE");
 }
 
 TEST(Files, StrokesComeInAndCurvesGoOut) {

@@ -16,6 +16,7 @@
 #include "files/file.h"
 #include "files/file_folder.h"
 #include "files/output_lock.h"
+#include "files/system.h"
 
 namespace mimicry {
 namespace {
@@ -96,6 +97,28 @@ TEST_F(FileTest, LinksThatLeadOutOfTheFolderAreNotFollowed) {
     EXPECT_EQ(refusal_beside(mesh, name), ErrorKind::unsupported) << name;
   for (const char* name : {"pipe", "parts", "."})
     EXPECT_EQ(refusal_beside(mesh, name), ErrorKind::io) << name;
+}
+
+TEST_F(FileTest, AFolderThatWasMadeIsRemovedAtAnyTimeWhereNothingCameThere) {
+  const auto end_in_the_middle = [&](const std::string& folder, auto&& meanwhile) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const OutputLock lock = OutputLock::of_folder(folder);
+      meanwhile();
+      remove_unfinished();
+      ::_exit(0);
+    }
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  };
+  end_in_the_middle(path("new"), [] {});
+  EXPECT_EQ(entries(), 0);
+  end_in_the_middle(path("new"), [&] { write_file_atomically(path("new/a"), "row"); });
+  EXPECT_EQ(read_file(path("new/a")), "row");
+  fs::create_directory(path("old"));
+  end_in_the_middle(path("old"), [] {});
+  EXPECT_TRUE(fs::is_empty(path("old")));
 }
 
 }  // namespace
