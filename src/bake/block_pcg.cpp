@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -61,7 +60,8 @@ SparseRows transpose(const SparseRows& a, Index columns) {
   return t;
 }
 
-BlockPcg::BlockPcg(SparseRows g, Index unknowns, Executor& executor)
+BlockPcg::BlockPcg(SparseRows g, Index unknowns, Executor& executor,
+                   const ProgressCallback& progress)
     : unknowns_(unknowns), executor_(executor), g_(std::move(g)) {
   scale_.assign(at(unknowns), 0.0);
   for (std::size_t k = 0; k < g_.column.size(); ++k)
@@ -69,12 +69,7 @@ BlockPcg::BlockPcg(SparseRows g, Index unknowns, Executor& executor)
   for (double& s : scale_) s = s > 0.0 ? 1.0 / std::sqrt(s) : 0.0;
   for (std::size_t k = 0; k < g_.column.size(); ++k) g_.value[k] *= scale_[at(g_.column[k])];
   gt_ = transpose(g_, unknowns);
-  assemble();
-  constexpr float kFirstShift = 8e-3F;
-  constexpr float kGrowth = 2.0F;
-  for (shift_ = kFirstShift; !factor(shift_); shift_ *= kGrowth) {
-  }
-  lower_ = {};
+  preconditioner_ = IncompleteCholesky(assemble(), progress);
 }
 
 // Rows of more entries couple each of them with each (a vertex with many thousand neighbours): of
@@ -92,17 +87,10 @@ std::size_t BlockPcg::widest_row() const {
   }
 }
 
-void BlockPcg::assemble() {
+// The upper triangle of G^T G.
+UpperRows BlockPcg::assemble() const {
   const std::size_t widest = widest_row();
-  // Two parts can be solved with at the same time; more would cost iterations.
-  constexpr Index kSmall = 8192;
-  part_start_ = {0, unknowns_};
-  if (unknowns_ > kSmall) part_start_ = {0, unknowns_ / 2, unknowns_};
-
   // Once for the pattern, once for the values: chunks write to places of their own.
-  const auto part_begin = [&](std::size_t i) {
-    return part_start_.size() == 3 && i >= at(part_start_[1]) ? part_start_[1] : 0;
-  };
   struct Row {
     std::vector<double> sum;
     std::vector<Index> seen;
@@ -111,7 +99,6 @@ void BlockPcg::assemble() {
   std::vector<Row> rows(static_cast<std::size_t>(executor_.threads()));
   const auto visit = [&](std::size_t i, Row& row, bool values) {
     row.columns.clear();
-    const Index first = part_begin(i);
     const auto add = [&row, i, values](Index j, double product) {
       if (row.seen[at(j)] != static_cast<Index>(i)) {
         row.seen[at(j)] = static_cast<Index>(i);
@@ -127,10 +114,9 @@ void BlockPcg::assemble() {
         add(static_cast<Index>(i), value * value);
         continue;
       }
-      for (std::size_t l = at(g_.start[r]); l < at(g_.start[r + 1]); ++l) {
+      for (std::size_t l = at(g_.start[r + 1]); l-- > at(g_.start[r]);) {
         const Index j = g_.column[l];
-        if (static_cast<std::size_t>(j) > i) break;
-        if (j < first) continue;
+        if (static_cast<std::size_t>(j) < i) break;
         add(j, value * g_.value[l]);
       }
     }
@@ -149,83 +135,25 @@ void BlockPcg::assemble() {
       for (std::size_t i = begin; i < end; ++i) body(i, rows[static_cast<std::size_t>(w)]);
     });
   };
-  lower_start_.assign(at(unknowns_) + 1, 0);
+  UpperRows upper;
+  upper.start.assign(at(unknowns_) + 1, 0);
   each_row([&](std::size_t i, Row& row) {
     visit(i, row, false);
-    lower_start_[i + 1] = static_cast<Index>(row.columns.size());
+    upper.start[i + 1] = static_cast<Index>(row.columns.size());
   });
-  for (std::size_t i = 0; i < at(unknowns_); ++i) lower_start_[i + 1] += lower_start_[i];
-  lower_column_.resize(at(lower_start_.back()));
-  lower_.resize(lower_column_.size());
+  for (std::size_t i = 0; i < at(unknowns_); ++i) upper.start[i + 1] += upper.start[i];
+  upper.column.resize(at(upper.start.back()));
+  upper.value.resize(upper.column.size());
   each_row([&](std::size_t i, Row& row) {
     visit(i, row, true);
     std::sort(row.columns.begin(), row.columns.end());
-    auto slot = at(lower_start_[i]);
+    auto slot = at(upper.start[i]);
     for (const Index j : row.columns) {
-      lower_column_[slot] = j;
-      lower_[slot++] = static_cast<float>(row.sum[at(j)]);
+      upper.column[slot] = j;
+      upper.value[slot++] = static_cast<float>(row.sum[at(j)]);
     }
   });
-}
-
-// False where a pivot fails: the shift is too small.
-bool BlockPcg::factor(float shift) {
-  constexpr float kLeastPivot = 1e-3F;  // against a diagonal of 1
-  factor_.resize(lower_.size());
-  std::atomic<bool> good{true};
-  executor_.for_chunks(part_start_.size() - 1, 1, [&](std::size_t part, std::size_t, int) {
-    std::vector<float> row(at(unknowns_), 0.0F);  // row i of the factor, spread out
-    for (auto i = at(part_start_[part]); i < at(part_start_[part + 1]); ++i) {
-      if (!good.load(std::memory_order_relaxed)) return;
-      const auto begin = at(lower_start_[i]), last = at(lower_start_[i + 1]) - 1;
-      for (std::size_t k = begin; k < last; ++k) row[at(lower_column_[k])] = lower_[k];
-      float pivot = lower_[last] + shift;
-      for (std::size_t k = begin; k < last; ++k) {
-        const auto j = at(lower_column_[k]);
-        const auto j_last = at(lower_start_[j + 1]) - 1;
-        float value = row[j];
-        for (std::size_t l = at(lower_start_[j]); l < j_last; ++l)
-          value -= factor_[l] * row[at(lower_column_[l])];
-        value *= factor_[j_last];
-        row[j] = value;
-        factor_[k] = value;
-        pivot -= value * value;
-      }
-      for (std::size_t k = begin; k < last; ++k) row[at(lower_column_[k])] = 0.0F;
-      if (!(pivot > kLeastPivot * shift)) {
-        good.store(false, std::memory_order_relaxed);
-        return;
-      }
-      factor_[last] = 1.0F / std::sqrt(pivot);
-    }
-  });
-  return good.load();
-}
-
-void BlockPcg::precondition(const BlockVector& r, std::vector<float>& z) const {
-  using Floats = std::array<float, kBlock>;
-  executor_.for_chunks(part_start_.size() - 1, 1, [&](std::size_t part, std::size_t, int) {
-    const auto first = at(part_start_[part]), end = at(part_start_[part + 1]);
-    for (auto i = first; i < end; ++i) {
-      Floats sum;
-      for (std::size_t c = 0; c < kBlock; ++c) sum[c] = static_cast<float>(r[i * kBlock + c]);
-      const auto last = at(lower_start_[i + 1]) - 1;
-      for (auto k = at(lower_start_[i]); k < last; ++k) {
-        const float* row = &z[at(lower_column_[k]) * kBlock];
-        for (std::size_t c = 0; c < kBlock; ++c) sum[c] -= factor_[k] * row[c];
-      }
-      for (std::size_t c = 0; c < kBlock; ++c) z[i * kBlock + c] = sum[c] * factor_[last];
-    }
-    for (auto i = end; i-- > first;) {
-      const auto last = at(lower_start_[i + 1]) - 1;
-      Floats value;
-      for (std::size_t c = 0; c < kBlock; ++c) value[c] = z[i * kBlock + c] *= factor_[last];
-      for (auto k = at(lower_start_[i]); k < last; ++k) {
-        float* row = &z[at(lower_column_[k]) * kBlock];
-        for (std::size_t c = 0; c < kBlock; ++c) row[c] -= factor_[k] * value[c];
-      }
-    }
-  });
+  return upper;
 }
 
 BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double tolerance,
@@ -249,7 +177,7 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
   for (std::size_t k = 0; k < image.size(); ++k) image[k] = g[k] - image[k];
   multiply(gt_, image, r, executor_);
 
-  std::vector<float> z(n * kBlock);
+  IncompleteCholesky::Applied z;
   Sums rho{};
   Result result;
   result.converged = false;
@@ -272,10 +200,15 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
     report(progress, "ls-mesh",
            std::clamp(0.5 * std::log(std::max(worst, 1e-300)) / std::log(tolerance), 0.0, 1.0));
 
-    precondition(r, z);
+    preconditioner_.apply(r, z, executor_);
+    const auto each = [&z](std::size_t i, auto&& body) {
+      for (std::size_t c = 0; c < kBlock; c += z.width) {
+        const float* row = z.row(i, c / z.width);
+        for (std::size_t k = 0; k < z.width; ++k) body(c + k, static_cast<double>(row[k]));
+      }
+    };
     const Sums fresh = reduce(n, executor_, [&](std::size_t i, Sums& sum) {
-      for (std::size_t c = 0; c < kBlock; ++c)
-        sum[c] += r[i * kBlock + c] * static_cast<double>(z[i * kBlock + c]);
+      each(i, [&](std::size_t c, double value) { sum[c] += r[i * kBlock + c] * value; });
     });
     Sums beta{};
     for (std::size_t c = 0; c < kBlock; ++c)
@@ -283,8 +216,9 @@ BlockPcg::Result BlockPcg::solve(const BlockVector& g, BlockVector& x, double to
     rho = fresh;
     executor_.for_chunks(n, kRowChunk, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t c = 0; c < kBlock; ++c)
-          p[i * kBlock + c] = static_cast<double>(z[i * kBlock + c]) + beta[c] * p[i * kBlock + c];
+        each(i, [&](std::size_t c, double value) {
+          p[i * kBlock + c] = value + beta[c] * p[i * kBlock + c];
+        });
     });
     multiply(g_, p, image, executor_);
     multiply(gt_, image, q, executor_);

@@ -5,10 +5,10 @@
 #include <mimicry/base/parallel.h>
 #include <mimicry/base/types.h>
 
+#include "bake/incomplete_cholesky.h"
+
 namespace mimicry {
 
-/// Right-hand sides that are solved together: one cache line of doubles, two registers of floats.
-inline constexpr int kBlock = 8;
 using BlockVector = std::vector<double>;  // n by kBlock, by rows
 
 /// Rows of a sparse matrix.
@@ -22,13 +22,12 @@ struct SparseRows {
 SparseRows transpose(const SparseRows& a, Index columns);
 
 /// Solves min |G x - g|^2 through G^T G x = G^T g for kBlock right-hand sides at once by conjugate
-/// gradients, preconditioned with an incomplete Cholesky factor (no fill, single precision, as
-/// large a diagonal shift as it takes) of G^T G in blocks of neighbouring unknowns. Unknowns and
-/// rows should be in an order of locality. The bits do not depend on the number of threads.
+/// gradients, preconditioned with an incomplete Cholesky factor of G^T G. Unknowns and rows should
+/// be in an order of locality. The bits do not depend on the number of threads.
 class BlockPcg {
  public:
   /// Takes G (rows by unknowns).
-  BlockPcg(SparseRows g, Index unknowns, Executor& executor);
+  BlockPcg(SparseRows g, Index unknowns, Executor& executor, const ProgressCallback& progress = {});
 
   struct Result {
     int iterations = 0;
@@ -39,27 +38,16 @@ class BlockPcg {
                const ProgressCallback& progress) const;
 
   Index unknowns() const { return unknowns_; }
-  float shift() const { return shift_; }
-
  private:
   std::size_t widest_row() const;
-  void assemble();
-  bool factor(float shift);
-  void precondition(const BlockVector& r, std::vector<float>& z) const;
+  UpperRows assemble() const;
 
   Index unknowns_;
   Executor& executor_;
   SparseRows g_;  // columns scaled so that G^T G has a unit diagonal
   SparseRows gt_;
   std::vector<double> scale_;
-  // Lower triangle of G^T G, then its factor; the diagonal is last in each row and, in the factor,
-  // inverted. Entries between different parts are left out.
-  std::vector<Index> part_start_;
-  std::vector<Index> lower_start_;
-  std::vector<Index> lower_column_;
-  std::vector<float> lower_;
-  std::vector<float> factor_;
-  float shift_ = 0.0F;
+  IncompleteCholesky preconditioner_;
 };
 
 }  // namespace mimicry

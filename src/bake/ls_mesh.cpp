@@ -250,7 +250,7 @@ LsMeshResult solve(const LsMeshInput& input, std::span<const Element> elements,
   }
   chunks = {};
 
-  const BlockPcg pcg(std::move(g), static_cast<Index>(unknowns), executor);
+  const BlockPcg pcg(std::move(g), static_cast<Index>(unknowns), executor, progress);
   LsMeshResult result;
   result.values = Values::Zero(static_cast<Eigen::Index>(vertices), dimension);
   for (Eigen::Index first = 0; first < dimension; first += kBlock) {
