@@ -8,6 +8,7 @@ import { fresh, here, run } from './harness.mjs';
 
 const main = `import * as THREE from 'three';
 import { Pen } from './pen.js';
+import { inTexture, paintable } from './paint.js';
 
 const scene = new THREE.Scene();
 const results = {};
@@ -39,15 +40,23 @@ for (const [name, geometry] of [['indexed', new THREE.SphereGeometry(1, 96, 64)]
     hit: ray.intersectObject(tube).length, parts: mesh.children.length,
   };
 }
-console.log(JSON.stringify(results));
+// A grid of two by two, the vertices of its triangles apart: u and v are (x + 1) / 2 and (y + 1) / 2.
+const plane = paintable(new THREE.PlaneGeometry(2, 2, 2, 2).toNonIndexed(), 'plane');
+const frames = new Float64Array(20 * 17);
+for (let i = 0; i < 20; i += 1) frames.set([i / 90, 0, 0, 3, 0, 0, 0, 1, 0.05 * i - 0.5, 0.3, 0.1, 0, 0, 0, 1, 1, -1], 17 * i);
+const curve = plane.session('snap').project([0, 0, 0, 1, 0, 0, 0, 1], frames);
+const texture = { components: plane.report.components, points: inTexture(plane, curve).map((uv) => [...uv]) };
+console.log(JSON.stringify({ results, texture }));
 `;
 
 test('draws on meshes of three.js with an index and without', async () => {
-  const pen = /```js\n(import \* as THREE[^]*?)```/.exec(readFileSync(join(here, '../README.md'), 'utf8'))[1];
-  const folder = fresh('three', { 'pen.js': pen, 'main.js': main });
+  const readme = readFileSync(join(here, '../README.md'), 'utf8');
+  const pen = /```js\n(import \* as THREE[^]*?)```/.exec(readme)[1];
+  const paint = /```js\n(import \{ Mimicry, cornerValueAt[^]*?)```/.exec(readme)[1];
+  const folder = fresh('three', { 'pen.js': pen, 'paint.js': paint, 'main.js': main });
   symlinkSync(join(here, 'node_modules/three'), join(folder, 'node_modules/three'));
   await esbuild.build({ absWorkingDir: folder, entryPoints: ['main.js'], bundle: true, outfile: 'out.mjs', format: 'esm', platform: 'node' });
-  const results = JSON.parse(run(folder, 'node', 'out.mjs'));
+  const { results, texture } = JSON.parse(run(folder, 'node', 'out.mjs'));
   assert.deepEqual(Object.keys(results), ['indexed', 'not indexed']);
   for (const [name, { ink, tube, ends, hit, parts }] of Object.entries(results)) {
     assert.ok(ink.length >= 2 * 59, name);
@@ -63,4 +72,7 @@ test('draws on meshes of three.js with an index and without', async () => {
     assert.ok(hit > 0, `${name}: the tube is seen from outside`);
     assert.equal(parts, 1, 'the tube is in the place of the line');
   }
+  assert.equal(texture.components, 1, 'drawn across the seams');
+  assert.equal(texture.points.length, 20);
+  texture.points.forEach(([u, v], i) => assert.ok(Math.abs(u - (0.025 * i + 0.25)) < 1e-6 && Math.abs(v - 0.65) < 1e-6, `point ${i} at ${[u, v]}`));
 });

@@ -15,3 +15,8 @@ static_assert(sizeof(mimicry_similarity) == 64 && sizeof(mimicry_frame) == 136);
 static_assert(sizeof(mimicry_ink) == 32);
 static_assert(offsetof(mimicry_curve_point, face) == 88 && sizeof(mimicry_curve_point) == 96);
 static_assert(offsetof(mimicry_bake_options, offset) == 8 && sizeof(mimicry_bake_options) == 24);
+static_assert(offsetof(mimicry_option_info, lowest) == 56);
+static_assert(offsetof(mimicry_own_technique, memory_size) == 44 &&
+              sizeof(mimicry_own_technique) == 56);
+static_assert(offsetof(mimicry_surface_point, barycentric) == 48);
+static_assert(offsetof(mimicry_corner_values, corners) == 8 && sizeof(mimicry_corner_values) == 12);

@@ -19,9 +19,11 @@ export interface BakeSettings {
 
 /** Blocks its thread until the bake is done. code: a `WebAssembly.Module`. */
 export async function runBake(code: object, mesh: MeshInput, settings: BakeSettings, onProgress?: (stage: string, fraction: number) => void): Promise<Bytes> {
-  const m = await instantiate(factory, code, (stage, fraction) => {
-    onProgress?.(stage, fraction);
-    return 1;
+  const m = await instantiate(factory, code, {
+    onBakeProgress(stage, fraction) {
+      onProgress?.(stage, fraction);
+      return 1;
+    },
   });
   return withMesh(m, mesh, '', (pointer) =>
     calling(m, (args) => {

@@ -4,8 +4,8 @@ export type Status =
 /** The message is a sentence that names the thing, the place and the remedy. */
 export class MimicryError extends Error {
   override readonly name = 'MimicryError';
-  constructor(readonly status: Status, message: string) {
-    super(message);
+  constructor(readonly status: Status, message: string, options?: { cause?: unknown }) {
+    super(message, options);
   }
 }
 

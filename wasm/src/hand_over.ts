@@ -1,8 +1,10 @@
+import type { MeshAttributes } from './attributes.js';
 import { Curve } from './curve.js';
 import { MimicryError } from './error.js';
 import type { Pointer } from './exports.js';
 import type { MeshReport } from './mesh.js';
-import { codeOf, instantiate, type Factory, type Module } from './module.js';
+import { codeOf, requireNoStep, type Factory, type Module } from './module.js';
+import { ownTechniques, startCore, type OwnLayout, type OwnTechniques } from './own_technique.js';
 import { Target } from './target.js';
 import type { Bytes, CompiledModule } from './types.js';
 
@@ -18,6 +20,9 @@ export interface TargetImage {
   name: string;
   report: MeshReport;
   vertexCount: number;
+  attributes: MeshAttributes;
+  /** Techniques of JavaScript that the memory knows, by their numbers; their functions stay in their thread. */
+  ownTechniques: readonly OwnLayout[];
 }
 
 export interface Received {
@@ -29,9 +34,11 @@ export interface Received {
 const kSlice = 8 << 20;
 
 export function imageOf(m: Module, target: Target, curves: readonly Curve[]): TargetImage {
+  requireNoStep(m, 'a target was handed over');
   return {
     code: codeOf(m), memory: m.HEAPU8.slice(0, usedBytes(m)), memoryBytes: m.HEAPU8.length,
-    target: target.addressIn(m), curves: curves.map((curve) => curve.addressIn(m)), name: target.name, report: target.report, vertexCount: target.vertexCount,
+    target: target.addressIn(m), curves: curves.map((curve) => curve.addressIn(m)), name: target.name, report: target.report, vertexCount: target.vertexCount, attributes: target.attributes,
+    ownTechniques: [...ownTechniques(m).names],
   };
 }
 
@@ -39,9 +46,9 @@ export function imageOf(m: Module, target: Target, curves: readonly Curve[]): Ta
  * A new instance of the same code with the same memory. At rest all that an instance knows lies in its memory: its
  * stack is empty, its table of functions is the code's.
  */
-export async function receive(factory: Factory, image: TargetImage): Promise<Received> {
+export async function receive(factory: Factory, image: TargetImage, own?: OwnTechniques): Promise<Received> {
   if (!(image?.memory instanceof Uint8Array)) throw new MimicryError('invalid_input', 'what was received is not what handOver() gave; send that with postMessage');
-  const m = await instantiate(factory, image.code);
+  const m = await startCore(factory, image.code);
   // The only way to let the memory grow that the glue takes notice of.
   if (m.HEAPU8.length < image.memoryBytes && m._malloc(image.memoryBytes) === 0) {
     throw new MimicryError('out_of_memory', `${image.name}: there is no memory left for ${image.memoryBytes} bytes; use a smaller model or close something else`);
@@ -50,8 +57,9 @@ export async function receive(factory: Factory, image: TargetImage): Promise<Rec
     if (at > 0) await new Promise((resolve) => setTimeout(resolve));
     m.HEAPU8.set(image.memory.subarray(at, at + kSlice), at);
   }
+  ownTechniques(m).adopt(image.ownTechniques ?? [], own);
   return {
-    target: new Target(m, image.target, image.name, image.report, image.vertexCount),
+    target: new Target(m, image.target, image.name, image.report, image.vertexCount, image.attributes),
     curves: image.curves.map((pointer) => new Curve(m, pointer)),
   };
 }

@@ -7,24 +7,28 @@ import { givenBytes, givenCount, givenText } from './given.js';
 import { imageOf, receive, type Received, type TargetImage } from './hand_over.js';
 import { compiled } from './load.js';
 import { meshArrays, meshReport, putFiles, shapeList, withMesh, type MeshArrays, type MeshFile, type MeshInput, type MeshReport, type ShapeInfo } from './mesh.js';
-import { codeOf, instantiate, type Module } from './module.js';
+import { codeOf, type Module } from './module.js';
+import { ownTechniques, startCore, type OwnTechnique } from './own_technique.js';
 import { readStrokes, writeStrokes, type RecordedStroke } from './strokes.js';
 import { Target, type TargetOptions } from './target.js';
 import { techniqueList, type TechniqueInfo } from './technique.js';
 import type { Bytes, CompiledModule, WasmSource } from './types.js';
 
 export { Curve, type CurvePoint, type TubeArrays } from './curve.js';
+export { cornerValueAt, perCorner, type CornerValues, type FaceLabels, type MeshAttributes, type VertexValues } from './attributes.js';
 export type { Received, TargetImage } from './hand_over.js';
 export { kInkFrame, kInkNormal, kInkPosition, kInkStarts, kInkStride, type Ink } from './ink.js';
 export { MimicryError, type Status } from './error.js';
 export type { MeshArrays, MeshFile, MeshInput, MeshReport, ShapeInfo } from './mesh.js';
 export { kFrameSize, kInked, kMissed, kRejected, kSimilaritySize, kStill, type OptionValue, Session, type SessionOptions } from './session.js';
+export type { Answer, OwnOption, OwnTechnique, StepTarget, TechniqueStep } from './own_technique.js';
+export type { SurfaceHit } from './queries.js';
 export { Geodesics, type SurfacePath } from './geodesics.js';
 export type { SurfacePlaces, SurfacePoints } from './surface_points.js';
 export type { RecordedStroke } from './strokes.js';
-export { Target, type CurveFormat, type SurfaceHit, type TargetOptions } from './target.js';
+export { Target, type CurveFormat, type TargetOptions } from './target.js';
 export type { OptionKind, TechniqueInfo, TechniqueOption } from './technique.js';
-export type { Bytes, Doubles, Integers, WasmSource } from './types.js';
+export type { Bytes, Doubles, Floats, Integers, WasmSource } from './types.js';
 
 export interface MimicryOptions {
   /** The core's WebAssembly file; the package's own where nothing is given. */
@@ -45,7 +49,7 @@ export class Mimicry {
   private lists: { techniques: readonly TechniqueInfo[]; shapes: readonly ShapeInfo[] } | undefined;
 
   constructor(options: MimicryOptions = {}) {
-    this.ready = compiled(options.wasm ?? coreWasm(), { name: 'core.wasm', build: kCoreBuild }).then((code) => instantiate(factory, code)).then((m) => {
+    this.ready = compiled(options.wasm ?? coreWasm(), { name: 'core.wasm', build: kCoreBuild }).then((code) => startCore(factory, code)).then((m) => {
       if (!this.disposed) this.module = m;
       return this;
     });
@@ -63,6 +67,16 @@ export class Mimicry {
 
   get techniques(): readonly TechniqueInfo[] { return this.listed.techniques; }
   get shapes(): readonly ShapeInfo[] { return this.listed.shapes; }
+
+  /**
+   * A technique of your own: its name is a technique's like the others from now on, in `techniques`, in sessions and in files of
+   * this `Mimicry`, until its `dispose()`; of received targets too where `receive` was given
+   * this `Mimicry`. At most 200.
+   */
+  registerTechnique(technique: OwnTechnique): void {
+    ownTechniques(this.m).register(technique);
+    this.lists = undefined;
+  }
 
   /** A built-in shape; resolution 0 for its default. */
   shape(name: string, resolution = 0): MeshArrays {
@@ -106,9 +120,12 @@ export class Mimicry {
     return imageOf(this.m, target, curves);
   }
 
-  /** What another thread hands over, in a memory of its own that goes when nothing of it is used any more. Blocks for some milliseconds at a time. */
-  static receive(image: TargetImage): Promise<Received> {
-    return receive(factory, image);
+  /**
+   * What another thread hands over, in a memory of its own that goes when nothing of it is used any more. Blocks for some milliseconds
+   * at a time. here: whose own techniques can be used on the target.
+   */
+  static receive(image: TargetImage, here?: Mimicry): Promise<Received> {
+    return receive(factory, image, here && ownTechniques(here.m));
   }
 
   /** The compiled code: another `Mimicry`, in a worker too, takes it as its `wasm` and starts at once. */

@@ -1,14 +1,17 @@
+import { attributesOf, givenAttributes, type MeshAttributes, type VertexValues } from './attributes.js';
 import { givenBytes, givenList, givenNumbers, givenText } from './given.js';
 import { Arguments, calling, check, made, textAt, type Module } from './module.js';
 import type { Pointer } from './exports.js';
 import type { Doubles, Integers } from './types.js';
 
 /** Triangles to draw on: `MeshArrays`, or any arrays of numbers, a geometry of three.js among them. */
-export interface MeshInput {
+export interface MeshInput extends VertexValues {
   /** 3 a vertex. */
   positions: ArrayLike<number>;
   /** 3 vertex numbers a face, counter-clockwise seen from outside; where there are none, each 3 vertices are a face. */
   faces?: ArrayLike<number> | null | undefined;
+  /** At corners and faces; where they have texcoords or colors these stand before those of vertices. */
+  attributes?: MeshAttributes | undefined;
 }
 
 /** As the core takes it. */
@@ -29,6 +32,8 @@ export interface MeshArrays {
   faces: Integers;
   /** The size at which it is suggested to be shown: a shape's own, or 0.6 m across the bounding box. */
   metresPerUnit: number;
+  /** What the file tells beside its geometry; missing where it is nothing. */
+  attributes?: MeshAttributes;
 }
 
 export interface MeshReport {
@@ -95,13 +100,22 @@ export function putFiles(m: Module, args: Arguments, files: readonly MeshFile[])
   return at;
 }
 
+/** What a mesh carries beside its geometry, by corners and faces. */
+export function meshAttributes(mesh: MeshInput): MeshAttributes {
+  if (!mesh.attributes && !mesh.uvs && !mesh.colors && !mesh.normals) return {};
+  const { positions, faces } = meshInput(mesh);
+  return givenAttributes(mesh, positions.length / 3, faces);
+}
+
 /** The mesh that a call makes, as arrays. */
 export function meshArrays(m: Module, call: (args: Arguments, out: Pointer) => number): MeshArrays {
   const mesh = made(m, call);
   try {
+    const attributes = attributesOf(m, mesh, m._mimicry_mesh_face_count(mesh));
     const positions = m._mimicry_mesh_positions(mesh) >> 3;
     const faces = m._mimicry_mesh_faces(mesh) >> 2;
     return {
+      ...(Object.keys(attributes).length > 0 ? { attributes } : {}),
       positions: m.HEAPF64.slice(positions, positions + 3 * m._mimicry_mesh_vertex_count(mesh)),
       faces: m.HEAP32.slice(faces, faces + 3 * m._mimicry_mesh_face_count(mesh)),
       metresPerUnit: m._mimicry_mesh_metres_per_unit(mesh),

@@ -16,6 +16,7 @@ export interface Module extends Exports {
 export interface ModuleHooks {
   instantiateWasm(imports: any, done: (instance: any) => void): object;
   onBakeProgress?(stage: string, fraction: number): number;
+  onTechniqueStep?(number: number, target: Pointer, frame: Pointer, metresPerUnit: number, options: Pointer, memory: Pointer, point: Pointer): number;
 }
 
 /** What emscripten's glue exports. */
@@ -24,20 +25,21 @@ export type Factory = (hooks: ModuleHooks) => Promise<Module>;
 const kStatus: readonly Status[] = ['failed', 'invalid_input', 'io', 'unsupported', 'cancelled', 'out_of_memory', 'failed'];
 
 /** A module ready for use. code: a `WebAssembly.Module`. */
-export async function instantiate(factory: Factory, code: object, onBakeProgress?: ModuleHooks['onBakeProgress']): Promise<Module> {
+export async function instantiate(factory: Factory, code: object, calls: Omit<ModuleHooks, 'instantiateWasm'> = {}): Promise<Module> {
   return new Promise<Module>((resolve, reject) => {
     const refuse = (error: unknown) => reject(error instanceof RangeError
       ? new MimicryError('out_of_memory', `there is no memory left to start WebAssembly (${messageOf(error)}); close other pages`)
       : new MimicryError('failed', `WebAssembly could not be started: ${messageOf(error)}`));
     const hooks: ModuleHooks = {
+      ...calls,
       instantiateWasm(imports, done) {
         WebAssembly.instantiate(code as WebAssembly.Module, imports).then(done, refuse);
         return {};
       },
     };
-    if (onBakeProgress) hooks.onBakeProgress = onBakeProgress;
     factory(hooks).then((m) => {
       codes.set(m, code);
+      ofModules.set(m, { running: '', failure: null });
       resolve(m);
     }, refuse);
   });
@@ -48,6 +50,28 @@ const codes = new WeakMap<Module, object>();
 /** The compiled code that a module runs. */
 export function codeOf(m: Module): CompiledModule {
   return codes.get(m) as CompiledModule;
+}
+
+/** Of a module's calls of techniques of JavaScript: whose step is running, '' for none, and what one threw. */
+export interface Steps { running: string; failure: MimicryError | null }
+const ofModules = new WeakMap<Module, Steps>();
+
+export function stepsOf(m: Module): Steps {
+  return ofModules.get(m)!;
+}
+
+/** In a step the code is in the middle of a frame: what it uses then must not go, move or be entered again. */
+export function requireNoStep(m: Module, what: string): void {
+  const { running } = stepsOf(m);
+  if (running !== '') throw new MimicryError('invalid_input', `${what} while a step of technique '${running}' runs; do it after the session's call`);
+}
+
+/** What a step threw since the last call of this. */
+export function takeFailure(m: Module): MimicryError | null {
+  const steps = stepsOf(m);
+  const { failure } = steps;
+  steps.failure = null;
+  return failure;
 }
 
 const kDecoder = new TextDecoder();
@@ -138,7 +162,9 @@ export abstract class Handle {
 
   /** Gives its memory back; a second time does nothing. Must not be used afterwards. */
   dispose(): void {
-    if (this.pointer !== 0) this.destroy(this.pointer);
+    if (this.pointer === 0) return;
+    requireNoStep(this.m, `a ${this.kind} was given back`);
+    this.destroy(this.pointer);
     this.pointer = 0;
   }
 

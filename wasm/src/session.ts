@@ -3,7 +3,7 @@ import type { Pointer } from './exports.js';
 import { InkView, type Ink } from './ink.js';
 import { MimicryError } from './error.js';
 import { givenNumbers, givenText } from './given.js';
-import { calling, check, Handle, made, type Module } from './module.js';
+import { calling, check, Handle, made, requireNoStep, takeFailure, type Module } from './module.js';
 
 /**
  * Numbers of a frame: time in seconds, head position (3) and orientation (4: x, y, z, w), controller
@@ -50,6 +50,19 @@ export class Session extends Handle {
     }
   }
 
+  /** @internal */
+  override get at(): Pointer {
+    requireNoStep(this.m, 'a session was used');
+    return super.at;
+  }
+
+  /** What a technique of JavaScript threw comes before what the code says. */
+  private settle(status: number): void {
+    const failure = takeFailure(this.m);
+    if (failure) throw failure;
+    check(this.m, status);
+  }
+
   protected override destroy(pointer: Pointer): void {
     this.m._free(this.room);
     this.m._mimicry_session_destroy(pointer);
@@ -77,14 +90,15 @@ export class Session extends Handle {
   /** frame: `kFrameSize` numbers. Makes no objects. What became of it: `kInked` and so on. */
   add(frame: ArrayLike<number>): number {
     if (frame?.length !== kFrameSize) throw new MimicryError('invalid_input', `a frame must be ${kFrameSize} numbers, not ${frame?.length}`);
+    const { at } = this;
     this.m.HEAPF64.set(frame, this.room >> 3);
     const status = this.room + 8 * kFrameSize;
-    check(this.m, this.m._mimicry_session_add(this.at, this.room, status));
+    this.settle(this.m._mimicry_session_add(at, this.room, status));
     return this.m.HEAP32[status >> 2]!;
   }
 
   end(): void {
-    check(this.m, this.m._mimicry_session_end(this.at));
+    this.settle(this.m._mimicry_session_end(this.at));
   }
 
   /** All ink of the stroke so far; new ink comes at its end. Always the same object; its arrays are valid until the next call of anything here. */
@@ -101,7 +115,14 @@ export class Session extends Handle {
   project(modelToWorld: ArrayLike<number>, frames: ArrayLike<number>): Curve {
     const placed = givenNumbers(modelToWorld, 'modelToWorld', { count: kSimilaritySize });
     const numbers = givenNumbers(frames, 'frames', { per: kFrameSize });
-    return new Curve(this.m, made(this.m, (args, out) =>
-      this.m._mimicry_session_project(this.at, args.put(placed), args.put(numbers), numbers.length / kFrameSize, out)));
+    return new Curve(this.m, made(this.m, (args, out) => {
+      const status = this.m._mimicry_session_project(this.at, args.put(placed), args.put(numbers), numbers.length / kFrameSize, out);
+      const failure = takeFailure(this.m);
+      if (failure) {
+        this.m._mimicry_curve_destroy(this.m.HEAPU32[out >> 2]!);
+        throw failure;
+      }
+      return status;
+    }));
   }
 }

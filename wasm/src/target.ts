@@ -1,31 +1,20 @@
+import type { MeshAttributes } from './attributes.js';
 import { Curve } from './curve.js';
 import { MimicryError } from './error.js';
 import type { Pointer } from './exports.js';
 import { Geodesics } from './geodesics.js';
 import { givenBytes, givenList, givenNumbers, givenText } from './given.js';
-import { meshReport, withMesh, type MeshInput, type MeshReport } from './mesh.js';
-import { calling, check, Handle, made, takeBytes, textAt, type Arguments, type Module } from './module.js';
+import { meshAttributes, meshReport, withMesh, type MeshInput, type MeshReport } from './mesh.js';
+import { calling, check, Handle, made, requireNoStep, takeBytes, textAt, type Arguments, type Module } from './module.js';
+import { ownTechniques } from './own_technique.js';
+import { PointQueries, type SurfaceHit } from './queries.js';
 import { Session, type SessionOptions } from './session.js';
 import { kSurfacePointBytes, pointsAt, putPlaces, type SurfacePlaces, type SurfacePoints } from './surface_points.js';
 import type { Bytes } from './types.js';
 
-/** A point on a target, model space; one object that the target's next query writes over. */
-export interface SurfaceHit {
-  readonly position: Float64Array;
-  /** Unit, interpolated between the vertices. */
-  readonly normal: Float64Array;
-  readonly barycentric: Float64Array;
-  /** From the query; of a ray along its direction. */
-  distance: number;
-  face: number;
-}
-
 /** obj: a line element a segment, obj-polylines: one a part. ply and glb have tubes, their -lines edges and line strips. packed: for keeping, written and read twenty times faster than json. */
 export type CurveFormat = 'json' | 'obj' | 'csv' | 'ply' | 'glb' | 'obj-polylines' | 'ply-lines' | 'glb-lines' | 'packed';
 const kFormats: readonly CurveFormat[] = ['json', 'obj', 'csv', 'ply', 'glb', 'obj-polylines', 'ply-lines', 'glb-lines', 'packed'];
-
-// A query's two vectors, then a mimicry_surface_point of ten doubles and two integers.
-const kQueryBytes = 6 * 8;
 
 export interface TargetOptions {
   /** Join vertices at equal positions at seams (default true); otherwise curves stop there. */
@@ -42,27 +31,28 @@ export interface TargetOptions {
  * turned back (`notes`). Faces, barycentrics and vertices are given by the mesh's own numbers.
  */
 export class Target extends Handle {
-  private readonly room: Pointer;
-  private readonly hit = { position: new Float64Array(3), normal: new Float64Array(3), barycentric: new Float64Array(3), distance: 0, face: -1 };
-  private hint = -1;
+  private readonly queries: PointQueries;
 
   /** @internal */
-  constructor(m: Module, pointer: Pointer, readonly name: string, readonly report: MeshReport, readonly vertexCount: number) {
+  constructor(m: Module, pointer: Pointer, readonly name: string, readonly report: MeshReport, readonly vertexCount: number,
+    /** What the mesh carries beside its geometry; the numbers of faces are those of queries and curves. */
+    readonly attributes: MeshAttributes) {
     super(m, pointer, 'target');
-    this.room = m._malloc(kQueryBytes + kSurfacePointBytes);
+    this.queries = new PointQueries(m);
   }
 
   /** @internal */
   static create(m: Module, mesh: MeshInput, name: string, options: TargetOptions): Target {
+    const attributes = meshAttributes(mesh);
     return withMesh(m, mesh, name, (pointer) => {
       const target = made(m, (args, out) =>
         m._mimicry_target_make(pointer, args.put(Int32Array.of(options.join === false ? 0 : 1, options.strict ? 1 : 0)), out));
-      return new Target(m, target, name, meshReport(m, pointer), mesh.positions.length / 3);
+      return new Target(m, target, name, meshReport(m, pointer), mesh.positions.length / 3, attributes);
     });
   }
 
   protected override destroy(pointer: Pointer): void {
-    this.m._free(this.room);
+    this.queries.free();
     this.m._mimicry_target_destroy(pointer);
   }
 
@@ -98,23 +88,12 @@ export class Target extends Handle {
 
   /** The closest point of the surface; null where there is none within `most`. Makes no objects. */
   closestPoint(x: number, y: number, z: number, most = Infinity): SurfaceHit | null {
-    const q = this.room >> 3;
-    const h = this.m.HEAPF64;
-    h[q] = x; h[q + 1] = y; h[q + 2] = z;
-    check(this.m, this.m._mimicry_target_closest_point(this.at, this.room, most, this.hint, this.room + kQueryBytes));
-    const found = this.found();
-    if (found) this.hint = found.face;
-    return found;
+    return this.queries.closestPoint(this.at, x, y, z, most);
   }
 
   /** The first point on a ray; null where there is none. Makes no objects. */
   firstHit(ox: number, oy: number, oz: number, dx: number, dy: number, dz: number): SurfaceHit | null {
-    const q = this.room >> 3;
-    const h = this.m.HEAPF64;
-    h[q] = ox; h[q + 1] = oy; h[q + 2] = oz;
-    h[q + 3] = dx; h[q + 4] = dy; h[q + 5] = dz;
-    check(this.m, this.m._mimicry_target_first_hit(this.at, this.room, this.room + 24, this.room + kQueryBytes));
-    return this.found();
+    return this.queries.firstHit(this.at, ox, oy, oz, dx, dy, dz);
   }
 
   /** The closest points to many: 3 numbers a point. */
@@ -161,24 +140,9 @@ export class Target extends Handle {
    * that was given an embedding, which is of one shape.
    */
   updatePositions(positions: ArrayLike<number>): void {
+    requireNoStep(this.m, 'vertices were moved');
     const numbers = givenNumbers(positions, 'the positions', { per: 3 });
     calling(this.m, (args) => check(this.m, this.m._mimicry_target_update_positions(this.at, args.put(numbers), numbers.length / 3)));
-  }
-
-  private found(): SurfaceHit | null {
-    const at = this.room + kQueryBytes;
-    const d = at >> 3;
-    const h = this.m.HEAPF64;
-    const hit = this.hit;
-    hit.face = this.m.HEAP32[(at >> 2) + 20]!;
-    if (hit.face < 0) return null;
-    for (let k = 0; k < 3; k += 1) {
-      hit.position[k] = h[d + k]!;
-      hit.normal[k] = h[d + 3 + k]!;
-      hit.barycentric[k] = h[d + 6 + k]!;
-    }
-    hit.distance = h[d + 9]!;
-    return hit;
   }
 
   /** A new target: this one with its bake, the content of a `.mimicry` file that was made for the same mesh. */
@@ -186,10 +150,11 @@ export class Target extends Handle {
     const content = givenBytes(bytes, "a file's content");
     const pointer = made(this.m, (args, out) =>
       this.m._mimicry_target_with_embedding(this.at, args.put(content), content.length, args.put(givenText(name, "a file's name")), out));
-    return new Target(this.m, pointer, this.name, this.report, this.vertexCount);
+    return new Target(this.m, pointer, this.name, this.report, this.vertexCount, this.attributes);
   }
 
   session(technique: string, options: SessionOptions = {}): Session {
+    ownTechniques(this.m).require(technique);
     const pointer = made(this.m, (args, out) => this.m._mimicry_session_create(this.at, args.put(givenText(technique, "a technique's name")), out));
     return new Session(this.m, pointer, technique, options);
   }

@@ -43,8 +43,8 @@ export interface TechniqueInfo {
 }
 
 // Bytes of mimicry_option_info.
-const kOptionBytes = 72;
-const kKinds: readonly OptionKind[] = ['boolean', 'number', 'direction', 'choice'];
+export const kOptionBytes = 72;
+export const kOptionKinds: readonly OptionKind[] = ['boolean', 'number', 'direction', 'choice'];
 
 function option(m: Module, at: number): TechniqueOption {
   const word = at >> 2;
@@ -54,7 +54,7 @@ function option(m: Module, at: number): TechniqueOption {
     name: textAt(m, m.HEAPU32[word]!),
     unit: textAt(m, m.HEAPU32[word + 1]!),
     description: textAt(m, m.HEAPU32[word + 2]!),
-    kind: kKinds[m.HEAP32[word + 3]!]!,
+    kind: kOptionKinds[m.HEAP32[word + 3]!]!,
     defaults: Array.from(m.HEAPF64.subarray(double, double + m.HEAP32[word + 4]!)),
     lowest: m.HEAPF64[double + 3]!,
     highest: m.HEAPF64[double + 4]!,

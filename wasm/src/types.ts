@@ -1,6 +1,7 @@
 /** Typed arrays of memory of their own: `Uint8Array<ArrayBuffer>` and so on where TypeScript has these (5.7 and later). */
 export type Bytes = ReturnType<typeof Uint8Array.of>;
 export type Doubles = ReturnType<typeof Float64Array.of>;
+export type Floats = ReturnType<typeof Float32Array.of>;
 export type Integers = ReturnType<typeof Int32Array.of>;
 
 // What is used of the platform's classes, so that neither the DOM's types nor Node's are needed.

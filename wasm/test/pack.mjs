@@ -2,7 +2,7 @@
 // program and the tests of the facade.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -24,8 +24,13 @@ try {
   writeFileSync(join(work, 'readme.mjs'), program);
   assert.match(execFileSync('node', ['readme.mjs'], quiet), /^90 points, 0\.4\d\d long\n$/);
 
-  writeFileSync(join(work, 'api.mjs'), readFileSync(join(root, 'test', 'api.mjs')));
-  process.stdout.write(execFileSync('node', ['--test', '--test-reporter=spec', 'api.mjs'], quiet));
+  const own = /```js\n((?:(?!```)[^])*registerTechnique[^]*?)```/.exec(readFileSync(join(root, 'README.md'), 'utf8'))[1];
+  writeFileSync(join(work, 'own.mjs'), own);
+  assert.match(execFileSync('node', ['own.mjs'], quiet), /^90 points, 0\.\d\d\d long\n$/);
+
+  const tests = ['api.mjs', 'attributes.mjs', 'own_technique.mjs'];
+  for (const name of tests) cpSync(join(root, 'test', name), join(work, name));
+  process.stdout.write(execFileSync('node', ['--test', '--test-reporter=spec', ...tests], quiet));
 } catch (error) {
   console.error(error.stdout ?? '', error.stderr ?? '', error);
   process.exitCode = 1;
