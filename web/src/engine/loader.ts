@@ -47,12 +47,12 @@ export class Loader {
   /** A model that is open, with its bake. */
   async withEmbedding(mesh: MeshArrays, name: string, embedding: MeshFile, watch: LoadWatch): Promise<Target> {
     const { image } = await this.run({ name, mesh }, name, watch, { embedding });
-    return (await Mimicry.receive(image)).target;
+    return (await Mimicry.receive(image, this.core)).target;
   }
 
   private async model(source: LoadSource, name: string, watch: LoadWatch, with_: Companions): Promise<LoadedModel> {
     const { image, model, found, unusable } = await this.run(source, name, watch, with_);
-    const { target, curves } = await Mimicry.receive(image);
+    const { target, curves } = await Mimicry.receive(image, this.core);
     watch.signal.throwIfAborted();
     const made = { target, curves: found.map((i): Curve | null => (i === null ? null : curves[i]!)), unusable };
     return { ...model!, made };

@@ -45,11 +45,7 @@ export class Studio {
   private editing: { before: Drawing; label: string } | null = null;
   private serial = 0;
 
-  /** In the order in which they are offered. */
-  readonly techniques: readonly TechniqueInfo[];
-
   constructor(readonly core: Core, private readonly view: StudioView, settings: Settings = kDefaults) {
-    this.techniques = techniquesOf(core);
     this.state = new Store<StudioState>({
       settings: core.techniques.some((t) => t.name === settings.technique) ? settings : { ...settings, technique: kDefaults.technique },
       history: kEmptyHistory, model: null, hasEmbedding: false, drawing: false,
@@ -58,6 +54,11 @@ export class Studio {
     this.state.watch((now, before) => {
       if (now.history.drawing !== before.history.drawing) this.view.showDrawing(now.history.drawing);
     });
+  }
+
+  /** In the order in which they are offered; those that a page registers with the core among them. */
+  get techniques(): readonly TechniqueInfo[] {
+    return techniquesOf(this.core);
   }
 
   get settings(): Settings {

@@ -152,6 +152,30 @@ describe('studio', () => {
     expect(view.replayed).toBe(null);
   });
 
+  it('lists a technique that the page registers, and draws with it', async () => {
+    const own = await new Mimicry().ready;
+    const here = new Studio(own, view);
+    const before = here.techniques.length;
+    own.registerTechnique({
+      name: 'nearest', title: 'Nearest', sentence: 'Draws at the closest point.', rank: -1, color: '#8a3ffc',
+      options: [{ kind: 'choice', name: 'start', choices: ['hand', 'head'] }],
+      step: (step) => {
+        const hit = step.target.closestPoint(step.frame[8]!, step.frame[9]!, step.frame[10]!);
+        return hit && step.found('closest', hit);
+      },
+    });
+    expect(here.techniques).toHaveLength(before + 1);
+    expect(here.techniques[0]!.name).toBe('nearest'); // by its rank
+    expect(here.techniqueTitle('nearest')).toBe('Nearest');
+    expect(here.technique('nearest').options.map(({ name, choices }) => [name, choices])).toEqual([['start', ['hand', 'head']]]);
+    here.open(shapeModel(own, 'sphere'));
+    expect(here.offers('nearest')).toBe(true);
+    studio = here;
+    studio.set({ technique: 'nearest' });
+    draw();
+    expect(studio.state.now.history.drawing.map(({ curve }) => [curve.technique, curve.pointCount])).toEqual([['nearest', 30]]);
+  });
+
   it('techniques that need a bake are offered with one only', () => {
     expect(studio.offers('mimicry')).toBe(false);
     expect(studio.offers('mimicry-live')).toBe(true);
