@@ -211,6 +211,8 @@ test('draws on a target that was handed over', async () => {
   const sent = () => structuredClone({ ...worker.handOver(worker.createTarget(mimicry.shape('sphere'), 'sphere')), code: null });
   const { target: received } = await Mimicry.receive({ ...sent(), code: mimicry.code }, mimicry);
   assert.deepEqual(received.session('acting').project(here, frames).ink.floats.slice(), target.session('acting').project(here, frames).ink.floats.slice());
+  mimicry.registerTechnique({ name: 'later', step: (step) => closest(step) });
+  assert.equal(received.session('later').project(here, frames).pointCount, 60, 'those that are registered afterwards, too');
   for (const name of ['elsewhere', 'steady-snap']) refused(() => received.session(name), 'invalid_input', new RegExp(`'${name}' was registered in another thread`));
   const { target: alone } = await Mimicry.receive({ ...sent(), code: mimicry.code });
   refused(() => alone.session('acting'), 'invalid_input', /'acting' does not exist/);

@@ -21,6 +21,29 @@ it.each([[1280, 640], [640, 640], [640, 480], [360, 640], [390, 480], [360, 480]
   await context.close();
 });
 
+it('the list of techniques shows one that is registered while the page is open, and a model from the worker is drawn on with it', async () => {
+  const { context, page, errors } = await lab.open();
+  await page.evaluate(() => window.studio.openFiles([new File(['v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n'], 'plate.obj')]));
+  await expect.poll(() => page.evaluate(() => window.studio.studio.mesh?.positions.length)).toBe(12);
+  await page.evaluate(() => window.studio.studio.core.registerTechnique({
+    name: 'nearest', title: 'Nearest', sentence: 'Draws at the closest point.', color: '#8a3ffc', rank: 0,
+    step: (step) => {
+      const hit = step.target.closestPoint(step.frame[8]!, step.frame[9]!, step.frame[10]!);
+      return hit && step.found('closest', hit);
+    },
+  }));
+  await page.locator('#technique').click();
+  const choices = page.locator('#techniques .choice');
+  expect(await choices.count()).toBe(await page.evaluate(() => window.studio.studio.core.techniques.length));
+  await choices.filter({ hasText: 'Nearest' }).click();
+  await page.keyboard.press('Escape');
+  await expect.poll(() => page.locator('#technique b').textContent()).toBe('Nearest');
+  await stroke(page, kAcross);
+  await expect.poll(() => page.evaluate(() => window.studio.studio.state.now.history.drawing.map(({ curve }) => curve.technique))).toEqual(['nearest']);
+  expect(errors).toEqual([]);
+  await context.close();
+});
+
 /** Pixels of the window by which the model reaches under the hint, the controls or the edge; 0: it is whole and free. */
 function covered(page: Page): Promise<number> {
   return page.evaluate(() => {
