@@ -124,7 +124,7 @@ export class Mimicry {
    * What another thread hands over, in a memory of its own that goes when nothing of it is used any more. Blocks for some milliseconds
    * at a time. here: whose own techniques can be used on the target.
    */
-  static receive(image: TargetImage, here?: Mimicry): Promise<Received> {
+  static async receive(image: TargetImage, here?: Mimicry): Promise<Received> {
     return receive(factory, image, here && ownTechniques(here.m));
   }
 

@@ -73,7 +73,8 @@ async function readFile({ file: name, content, beside }: Extract<LoadSource, { f
   const buffers = beside.filter((file) => names.includes(file.name));
   const files = await Promise.all(buffers.map(async (file) => ({ name: file.name, bytes: await read(file, file.name) })));
   tell({ stage: `Reading ${name}`, fraction: null });
-  const mesh = (await engine(code)).readMeshFiles([{ name, bytes }, ...files], name);
+  // The page draws a plain surface: what the file tells beside its geometry is not sent.
+  const { attributes: _, ...mesh } = (await engine(code)).readMeshFiles([{ name, bytes }, ...files], name);
   // What is kept with a drawing and sent to be prepared is one file.
   return { name, mesh, source: { file: name, bytes: files.length > 0 ? packed(bytes, files) : bytes } };
 }
