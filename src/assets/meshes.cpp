@@ -86,7 +86,7 @@ NamedMesh load_mesh(const std::string& spec, const Monitor& monitor) {
 std::string find_mesh_file(const std::string& folder, const std::string& name) {
   for (const char* extension : {".obj", ".ply", ".stl", ".off", ".glb", ".gltf"}) {
     std::string path = join_path(folder, name + extension);
-    if (std::filesystem::is_regular_file(to_path(path))) return path;
+    if (std::filesystem::is_regular_file(status_of(path))) return path;
   }
   throw Error(ErrorKind::io,
               folder + ": has no mesh " + name + ".obj (nor .ply, .stl, .off, .glb, .gltf)");

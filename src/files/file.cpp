@@ -134,12 +134,21 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     fail(path, "cannot be written", errno);
 }
 
+std::filesystem::file_status status_of(const std::string& path) {
+  std::error_code trouble;
+  const auto status = std::filesystem::status(to_path(path), trouble);
+  if (!std::filesystem::status_known(status))
+    throw Error(ErrorKind::io, path + ": cannot be looked at: " + trouble.message() +
+                                   "; check the path and the rights of its folders");
+  return status;
+}
+
 void make_folder(const std::string& path) {
   std::error_code trouble;
   const std::filesystem::path folder = to_path(path);
   std::filesystem::create_directories(folder, trouble);
   // It does not mind a file at the end of the path.
-  if (!trouble && !std::filesystem::is_directory(folder))
+  if (!trouble && !std::filesystem::is_directory(folder, trouble) && !trouble)
     trouble = {ENOTDIR, std::generic_category()};
   if (trouble)
     throw Error(ErrorKind::io, path + ": the folder cannot be made: " + trouble.message() +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -36,6 +37,10 @@ class MappedFile {
 /// name are on the disk. A symbolic link is followed. A terminal, /dev/null and a pipe that a
 /// program reads are written to directly; a pipe that nobody reads and a disk are refused.
 void write_file_atomically(const std::string& path, std::string_view bytes);
+
+/// What stands at a path, behind links; `not_found` where nothing does. Throws Error(io) where the
+/// system does not say: a folder that may not be searched, a name too long, links in a ring.
+std::filesystem::file_status status_of(const std::string& path);
 
 /// Makes a folder and those above it, where they are missing. Throws Error(io).
 void make_folder(const std::string& path);

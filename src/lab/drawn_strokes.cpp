@@ -77,8 +77,7 @@ std::string DrawnStrokes::path_of(const StudyRow& row) const {
   if (known->second.empty())
     refuse_row("several strokes that were replayed are called " + row.participant +
                "; say which with --recordings");
-  std::error_code none;
-  if (!fs::exists(to_path(known->second), none))
+  if (!fs::exists(status_of(known->second)))
     refuse_row(known->second +
                ": is no longer where it was replayed from; say where with --recordings");
   return known->second;
@@ -137,7 +136,7 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   DrawnStroke drawn;
   // A strokes file may have strokes of such names.
   const bool of_folder =
-      RecordingName::of_file(row.recording) && fs::is_directory(to_path(path_of(row)));
+      RecordingName::of_file(row.recording) && fs::is_directory(status_of(path_of(row)));
   drawn.stroke = of_folder ? stroke_of(recording(row)) : stroke_of_file(row);
   Shape& on = shape(row.shape);
   drawn.target = on.target.get();

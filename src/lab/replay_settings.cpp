@@ -22,8 +22,17 @@ constexpr const char *kVersion = "version", *kStrokes = "strokes", *kBytes = "by
                      *kTargets = "targets", *kMisses = "misses", *kFolder = "folder";
 constexpr const char *kSplit = "split", *kConnect = "connect";
 
+fs::path absolute_path(const std::string& path) {
+  std::error_code trouble;
+  const fs::path whole = fs::absolute(to_path(path), trouble);
+  if (trouble)
+    throw Error(ErrorKind::io, path + ": where this is cannot be told: " + trouble.message() +
+                                   "; give a path that begins at the root");
+  return whole.lexically_normal();
+}
+
 std::string absolute(const std::string& path) {
-  return path.empty() ? path : to_text(fs::absolute(to_path(path)).lexically_normal());
+  return path.empty() ? path : to_text(absolute_path(path));
 }
 
 Json to_json(const ReplaySettings& settings) {
@@ -59,7 +68,8 @@ ReplaySettings settings_of(const ReplayOptions& options) {
   }
   for (const TechniqueInfo* info : options.techniques) settings.techniques.emplace_back(info->name);
   settings.shapes = absolute(options.shapes);
-  settings.mesh = fs::exists(to_path(options.mesh)) ? absolute(options.mesh) : options.mesh;
+  std::error_code none;  // a built-in shape need not be a file's name
+  settings.mesh = fs::exists(to_path(options.mesh), none) ? absolute(options.mesh) : options.mesh;
   settings.targets = absolute(options.targets);
   settings.misses = options.misses;
   settings.folder = absolute(options.out);
@@ -84,7 +94,7 @@ std::optional<ReplaySettings> read_settings(const std::string& folder) {
     const Json json = Json::parse(read_file(to_text(path), Accept::regular));
     ReplaySettings settings;
     settings.folder = json.value(kFolder, "");
-    const fs::path now = fs::absolute(to_path(folder)).lexically_normal();
+    const fs::path now = absolute_path(folder);
     const auto path_of = [&](const std::string& then) { return found(then, settings.folder, now); };
     settings.version = json.value(kVersion, "");
     for (const Json& stroke : json.at(kStrokes))

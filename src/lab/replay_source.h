@@ -29,8 +29,9 @@ class ReplaySource {
   /// Throws Error(io) for a path that is not there.
   explicit ReplaySource(const std::vector<std::string>& paths);
   std::optional<ReplayJob> next();
+  /// Of files; what a pipe will give is not known, and does not count. 0: there are only pipes.
   std::size_t bytes() const { return bytes_; }
-  std::size_t bytes_read() const { return bytes_read_; }
+  std::size_t bytes_read() const { return bytes_read_; }  ///< of these
 
  private:
   struct Close {
@@ -39,7 +40,13 @@ class ReplaySource {
   std::optional<ReplayJob> next_of_file();
   std::optional<ReplayJob> next_of_folder();
 
-  std::vector<std::string> paths_;
+  struct Path {
+    std::string path;
+    bool is_folder = false;
+    bool has_size = false;
+  };
+
+  std::vector<Path> paths_;
   std::size_t path_ = 0;  // the next one to open
   std::size_t bytes_ = 0, bytes_read_ = 0;
   std::unique_ptr<std::FILE, Close> file_;

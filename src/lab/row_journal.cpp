@@ -36,7 +36,7 @@ RowJournal::RowJournal(const std::string& folder, const std::string& settings,
   const std::string csv_path = in_folder("rows.csv"), json_path = in_folder("rows.jsonl"),
                     journal_path = in_folder("rows.journal");
   std::size_t journal_bytes = 0, csv_bytes = 0, json_bytes = 0;
-  if (fs::exists(to_path(journal_path))) {
+  if (fs::exists(status_of(journal_path))) {
     const std::string text = read_file(journal_path, Accept::regular);
     const std::size_t end = text.find('\n');
     if (end != std::string::npos && text.substr(0, end) != settings)
@@ -65,7 +65,7 @@ RowJournal::RowJournal(const std::string& folder, const std::string& settings,
                   folder +
                       ": holds rows with other columns, of another version; give another --out, "
                       "or remove rows.csv, rows.jsonl and rows.journal");
-  } else if (fs::exists(to_path(csv_path)) || fs::exists(to_path(json_path))) {
+  } else if (fs::exists(status_of(csv_path)) || fs::exists(status_of(json_path))) {
     throw Error(ErrorKind::invalid_input,
                 folder + ": holds rows of another program; give another --out");
   }

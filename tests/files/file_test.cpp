@@ -54,6 +54,23 @@ TEST_F(FileTest, FailuresAreErrorsThatNameThePathAndLeaveNothing) {
   EXPECT_EQ(entries(), 0);
 }
 
+TEST_F(FileTest, WhatStandsAtAPathOrWhyThatIsNotKnown) {
+  write_file_atomically(path("a"), "");
+  EXPECT_EQ(status_of(path("a")).type(), fs::file_type::regular);
+  EXPECT_EQ(status_of(folder_.string()).type(), fs::file_type::directory);
+  EXPECT_EQ(status_of(path("nowhere")).type(), fs::file_type::not_found);
+#ifndef _WIN32
+  fs::create_symlink(path("ring"), path("ring"));
+  try {
+    status_of(path("ring"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_EQ(std::string(error.what()).find(path("ring") + ": "), 0u) << error.what();
+  }
+#endif
+}
+
 TEST_F(FileTest, PartOfAnotherWriterIsNotTouched) {
   const std::string part = path("a.part") + std::to_string(process_number()) + "-0";
   write_file_atomically(part, "another's");
