@@ -18,8 +18,8 @@ void Monitor::check() const {
 
 void Monitor::report(std::string_view work, std::size_t done, std::size_t total) const {
   check();
-  if (progress)
-    progress(work, total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total));
+  if (progress && total > 0)
+    progress(work, std::min(static_cast<double>(done) / static_cast<double>(total), 1.0));
 }
 
 int thread_count(int threads) {

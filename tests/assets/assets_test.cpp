@@ -113,8 +113,10 @@ TEST(Monitors, MayBeEmptyAndEndTheWork) {
   monitor.progress = [&](std::string_view, double fraction) { last = fraction; };
   monitor.report("work", 1, 4);
   EXPECT_EQ(last, 0.25);
-  monitor.report("work", 0, 0);
-  EXPECT_EQ(last, 1.0);
+  monitor.report("work", 3, 0);
+  EXPECT_EQ(last, 0.25) << "of an unknown total nothing is told";
+  monitor.report("work", 5, 4);
+  EXPECT_EQ(last, 1.0) << "a file that grows";
   monitor.cancelled = [] { return true; };
   EXPECT_THROW(monitor.check(), Error);
   EXPECT_THROW(monitor.report("work", 1, 4), Error);

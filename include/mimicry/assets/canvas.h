@@ -27,7 +27,8 @@ struct Monitor {
   void tell(const std::string& sentence) const;
   /// Throws Error(cancelled) where the work is to end.
   void check() const;
-  /// Reports, and does as `check`. Where `total` is 0 all is done.
+  /// Reports `done` of `total`, at most all of it, and does as `check`. Where `total` is 0 it is
+  /// not known, and `progress` hears nothing.
   void report(std::string_view work, std::size_t done, std::size_t total) const;
 };
 
