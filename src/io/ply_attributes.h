@@ -86,15 +86,18 @@ class PlyColor {
     for (std::size_t k = 0; k < 256; ++k)
       linear_[k] = static_cast<float>(linear_from_srgb(static_cast<double>(k) / 255.0));
   }
-  std::array<float, 4> operator()(const double (&numbers)[kPlyRoles], double most) const {
+  /// most: what stands for 1 in each of the numbers.
+  std::array<float, 4> operator()(const double (&numbers)[kPlyRoles],
+                                  const std::array<double, kPlyRoles>& most) const {
     std::array<float, 4> color;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double x = numbers[static_cast<std::size_t>(kPlyRed) + k];
-      color[k] = most == 255.0 && x >= 0.0 && x <= 255.0 && x == std::floor(x)
+      const std::size_t role = kPlyRed + k;
+      const double x = numbers[role];
+      color[k] = most[role] == 255.0 && x >= 0.0 && x <= 255.0 && x == std::floor(x)
                      ? linear_[static_cast<std::size_t>(x)]
-                     : static_cast<float>(linear_from_srgb(x / most));
+                     : static_cast<float>(linear_from_srgb(x / most[role]));
     }
-    color[3] = static_cast<float>(numbers[kPlyAlpha] / most);
+    color[3] = static_cast<float>(numbers[kPlyAlpha] / most[kPlyAlpha]);
     return color;
   }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -198,14 +199,16 @@ template <class Source>
 void read_vertices(Source& source, const Element& element, const ByCorner& by_corner,
                    MeshBuilder& mesh) {
   std::vector<PlyRole> roles;
+  std::array<double, kPlyRoles> most;  // what stands for 1
+  most.fill(1.0);
   int found[kPlyRoles] = {};
-  double most = 1.0;
   for (const PlyProperty& property : element.properties) {
     PlyRole role = ply_role_of(property);
     if (role >= kPlyRed && found[role] > 0) role = kPlyPassedOver;  // the first counts
     roles.push_back(role);
-    if (role >= 0) ++found[role];
-    if (role == kPlyRed) most = ply_most_of(property.type);
+    if (role < 0) continue;
+    ++found[role];
+    most[static_cast<std::size_t>(role)] = ply_most_of(property.type);
   }
   for (int axis = 0; axis < 3; ++axis)
     if (found[axis] != 1)
@@ -219,7 +222,7 @@ void read_vertices(Source& source, const Element& element, const ByCorner& by_co
   const PlyColor to_color;
   mesh.reserve(element.count, 0);
   double numbers[kPlyRoles] = {};
-  numbers[kPlyAlpha] = most;
+  numbers[kPlyAlpha] = 1.0;
   for (std::uint64_t v = 0; v < element.count; ++v) {
     for (std::size_t k = 0; k < roles.size(); ++k) {
       const PlyType type = element.properties[k].type;

@@ -314,6 +314,18 @@ TEST(MeshAttributesInFiles, PlyVerticesOfOtherPrograms) {
               ElementsAre(Color{1, 0, 0, 1}, Color{0, 0, 1, 1}, Color{-1, -1, -1, -1}));
 }
 
+TEST(MeshAttributesInFiles, PlyColoursHaveEachTheScaleOfItsType) {
+  const Carried outcome =
+      read_carried("ply\nformat ascii 1.0\n" + kPlyVertices +
+                       "property uchar red\nproperty float green\nproperty ushort blue\n"
+                       "property float alpha\n"
+                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                       "0 0 0 255 0 0 1\n1 0 0 0 1 0 0.5\n0 1 0 0 0 65535 0.25\n3 0 1 2\n",
+                   MeshFormat::ply);
+  EXPECT_THAT(at_corners(outcome.attributes().colors, 1),
+              ElementsAre(Color{1, 0, 0, 1}, Color{0, 1, 0, 0.5f}, Color{0, 0, 1, 0.25f}));
+}
+
 TEST(MeshAttributesInFiles, PlyListsThatDoNotFitAreNoted) {
   const Carried outcome =
       read_carried("ply\nformat ascii 1.0\n" + kPlyVertices +
