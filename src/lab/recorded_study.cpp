@@ -11,8 +11,6 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 
-#include "assets/meshes.h"
-#include "assets/target_curves.h"
 #include "assets/work.h"
 #include "lab/participant_folder.h"
 #include "lab/study_numbers.h"
@@ -41,13 +39,15 @@ struct Outcome {
   std::vector<std::string> notes;
 };
 
-void load_shape(MeasuredShape& shape, const RecordedStudyOptions& options, const TargetSet& set,
+void load_shape(MeasuredShape& shape, const StudyShapes& study, const std::string& targets,
                 const Monitor& monitor) {
   try {
-    const NamedMesh named = load_mesh(find_mesh_file(options.shapes, shape.name), monitor);
-    shape.target.emplace(make_target(named, {}, monitor));
-    shape.curves = find_target_shape(set, shape.name, source_name(options.targets));
-    require_fits(shape.curves, named.mesh);
+    const StudyShape* known = study.find(shape.name);
+    if (known == nullptr)
+      throw Error(ErrorKind::invalid_input,
+                  source_name(targets) + ": has no shape '" + shape.name + "'");
+    shape.target.emplace(study.load(*known, monitor));
+    shape.curves = *known->shape;
     for (TargetCurve& curve : shape.curves.curves)
       curve = with_keypoints(std::move(curve), *shape.target, shape.curves.scale);
   } catch (const Error& error) {
@@ -59,17 +59,18 @@ void load_shape(MeasuredShape& shape, const RecordedStudyOptions& options, const
 std::map<Index, MeasuredShape> load_shapes(const std::vector<ParticipantFolder>& participants,
                                            const RecordedStudyOptions& options,
                                            const Monitor& monitor) {
-  const TargetSet set = load_target_curves(options.targets);
+  const StudyShapes study({options.shapes, options.targets, {}});
   std::map<Index, MeasuredShape> shapes;
   for (const ParticipantFolder& participant : participants)
     for (const Index number : participant.sequence().shapes) {
       if (shapes.contains(number)) continue;
       MeasuredShape& shape = shapes[number];
-      shape.name = std::string(shape_of_number(number));
+      shape.name = study.name(number);
       if (shape.name.empty())
-        shape.problem = "the study has no shape " + std::to_string(number);
+        shape.problem = "neither the study nor " + source_name(options.targets) + " has a shape " +
+                        std::to_string(number);
       else
-        load_shape(shape, options, set, monitor);
+        load_shape(shape, study, options.targets, monitor);
     }
   return shapes;
 }
