@@ -51,8 +51,8 @@ void add_replay_sources(const std::string& folder, StrokeSources& sources) {
   if (settings->misses == MissPolicy::split) sources.misses = settings->misses;
 }
 
-DrawnStrokes::DrawnStrokes(const StrokeSources& sources, const Monitor& monitor)
-    : sources_(sources), monitor_(monitor) {
+DrawnStrokes::DrawnStrokes(const StrokeSources& sources, const Monitor& monitor, int threads)
+    : sources_(sources), monitor_(monitor), threads_(threads) {
   if (!sources.targets.empty()) targets_ = load_target_curves(sources.targets);
 }
 
@@ -143,7 +143,8 @@ DrawnStroke DrawnStrokes::replayed(const StudyRow& row) {
   const TechniqueInfo& info = find_technique(row.method);
   const TechniqueInfo* only[] = {&info};
   auto& prepared = info.needs_bake ? on.baked : on.plain;
-  if (!prepared) prepared = make_canvas(*on.target, only, monitor_);
+  if (!prepared)
+    prepared = make_canvas(*on.target, only, monitor_, {}, {.options = {}, .threads = threads_});
   drawn.curve = project(*prepared, info, drawn.stroke, {.misses = sources_.misses}).curve;
   if (drawn.stroke.intended)
     for (const SurfacePoint& p : drawn.stroke.intended->points) {

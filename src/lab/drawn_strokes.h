@@ -48,7 +48,8 @@ struct DrawnStroke {
 /// when they are first needed, and kept.
 class DrawnStrokes {
  public:
-  explicit DrawnStrokes(const StrokeSources& sources, const Monitor& monitor = {});
+  /// threads: of bakes; 0: as many as the machine has.
+  explicit DrawnStrokes(const StrokeSources& sources, const Monitor& monitor = {}, int threads = 0);
   /// Throws Error saying what is not there. The target lives as long as this.
   DrawnStroke find(const StudyRow& row);
 
@@ -67,6 +68,7 @@ class DrawnStrokes {
 
   StrokeSources sources_;
   Monitor monitor_;
+  int threads_;
   std::optional<TargetSet> targets_;
   std::map<std::string, Shape> shapes_;
   std::map<std::string, std::vector<RecordedStroke>> recordings_;

@@ -76,7 +76,8 @@ const Replayer::Shape& Replayer::shape(const std::string& name) const {
                                               with_keypoints(curve, *shape.target, published.scale),
                                               published.scale));
     }
-    shape.canvas = make_canvas(*shape.target, options_.techniques, monitor_);
+    shape.canvas = make_canvas(*shape.target, options_.techniques, monitor_, {},
+                               {.options = {}, .threads = options_.threads});
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
     shape.problem = error.what();

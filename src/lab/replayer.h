@@ -24,8 +24,8 @@ struct ReplayRows {
 };
 
 /// Draws the strokes of a job with every technique and measures the curves. Thread-safe; equal jobs
-/// give equal bytes. Loads each shape once, when it is first needed. `strokes`, `out` and `threads`
-/// of the options are not its business.
+/// give equal bytes. Loads each shape once, when it is first needed. `strokes` and `out` of
+/// the options are not its business; `threads` are those of bakes.
 class Replayer {
  public:
   Replayer(const ReplayOptions& options, const Monitor& monitor);

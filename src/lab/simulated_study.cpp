@@ -137,7 +137,8 @@ std::size_t simulate_study(const SimulatedStudyOptions& options, const Monitor& 
   for (std::size_t s = 0; s < shapes.list().size(); ++s) {
     const StudyShape& shape = shapes.list()[s];
     const Target target = shapes.load(shape, monitor);
-    const Canvas canvas = make_canvas(target, techniques, monitor);
+    const Canvas canvas =
+        make_canvas(target, techniques, monitor, {}, {.options = {}, .threads = options.threads});
     std::atomic<std::size_t> done = 0;
     executor.for_chunks(count, 1, [&](std::size_t p, std::size_t, int worker) {
       draw_shape(canvas, shape, s, study, study.people[p], monitor);

@@ -1,8 +1,11 @@
 #include "lab/replay.h"
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,6 +20,7 @@
 #include "lab/drawn_strokes.h"
 #include "lab/measured_rows.h"
 #include "lab/recorded_study.h"
+#include "lab/replayer.h"
 #include "lab/simulated_strokes.h"
 #include "lab/simulated_study.h"
 #include "support/folder.h"
@@ -114,10 +118,11 @@ TEST(Replay, StrokesOfRowsAreFoundAndDrawnAgain) {
   EXPECT_THROW(DrawnStrokes(nowhere).find(rows.rows()[0]), Error);
 }
 
-// A study of two people on one shape with two curves, on the disk.
-SimulatedStudyOptions small_study(const test::TestFolder& folder) {
+// A study of two people on one shape, a torus, with two curves, on the disk.
+SimulatedStudyOptions small_study(const test::TestFolder& folder,
+                                  const std::string& name = "torus") {
   TargetShape shape;
-  shape.name = "torus";
+  shape.name = name;
   shape.scale = 0.4;
   SimulatedStrokesOptions strokes;
   strokes.mesh = "shape:torus";
@@ -200,6 +205,98 @@ TEST(RecordedStudy, MethodsAreCalledByTheirNames) {
   for (const StudyRow& row : read.rows())
     EXPECT_GT(strokes.find(row).curve.points.size(), 5u) << row.name();
 }
+
+TEST(RecordedStudy, ShapesBeyondThePublishedOnesAreThoseOfTheTargetCurves) {
+  const test::TestFolder folder;
+  std::filesystem::create_directories(folder.path("shapes"));
+  write_file_atomically(folder.path("shapes/ring.obj"),
+                        write_mesh(load_mesh("shape:torus").mesh, MeshFormat::obj));
+  SimulatedStudyOptions study = small_study(folder, "ring");
+  study.shapes.folder = folder.path("shapes");
+  simulate_study(study);
+  RecordedStudyOptions options;
+  options.participants = {folder.path("study/p00"), folder.path("study/p01")};
+  options.shapes = folder.path("shapes");
+  options.targets = folder.path("t.json");
+  const RecordedStudy measured = measure_recordings(options);
+  EXPECT_EQ(measured.rows.size(), 16u);
+  for (const RejectedStroke& rejected : measured.rejected) ADD_FAILURE() << rejected.text();
+  for (const MeasuredRow& row : measured.rows) {
+    EXPECT_EQ(row.shape, "ring");
+    EXPECT_EQ(row.shape_number, 6);
+  }
+}
+
+TEST(Replay, PathsThatTheSystemDoesNotLookAtAreNamed) {
+  const test::TestFolder folder;
+  ReplayOptions options = options_of(folder, "out");
+  const auto expect_error = [&](const std::string& path) {
+    try {
+      replay_strokes(options);
+      ADD_FAILURE() << "no error for " << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
+    }
+  };
+  options.strokes = {folder.path(std::string(300, 's'))};
+  expect_error(options.strokes[0]);
+#ifndef _WIN32
+  write_strokes(folder, 1);
+  options = options_of(folder, "out");
+  std::filesystem::create_directories(folder.path("out"));
+  std::filesystem::create_symlink("rows.journal", folder.path("out/rows.journal"));
+  expect_error(folder.path("out/rows.journal"));
+#endif
+}
+
+#ifdef __linux__
+// How many threads beside those of before run when a bake first tells of itself, which ends it.
+template <class Work>
+std::size_t threads_of_bake(const test::TestFolder& folder, const Work& work) {
+  ::setenv("MIMICRY_CACHE", folder.path("cache").c_str(), 1);
+  const auto running = [] {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
+  };
+  const std::size_t before = running();
+  std::size_t during = 0;
+  Monitor monitor;
+  monitor.progress = [&](std::string_view of, double) {
+    if (of != "baking") return;
+    during = running();
+    throw Error(ErrorKind::cancelled, "enough");
+  };
+  EXPECT_THROW(work(monitor), Error);
+  ::unsetenv("MIMICRY_CACHE");
+  EXPECT_GE(during, before);
+  return during - before;
+}
+
+TEST(Replay, BakesHaveTheThreadsThatWereAskedFor) {
+  const test::TestFolder folder;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency()) + 3;
+  ReplayOptions options;
+  options.techniques = {&find_technique("mimicry")};
+  options.mesh = kMesh;
+  options.threads = threads;
+  ReplayJob job;
+  job.source = "s.json";
+  job.text = write_strokes(drawn_strokes(1));
+  const auto others = static_cast<std::size_t>(threads - 1);
+  EXPECT_EQ(
+      threads_of_bake(folder, [&](const Monitor& monitor) { Replayer(options, monitor).run(job); }),
+      others);
+
+  SimulatedStudyOptions study = small_study(folder);
+  study.techniques = {"mimicry"};
+  study.threads = threads;
+  EXPECT_EQ(
+      threads_of_bake(folder, [&](const Monitor& monitor) { simulate_study(study, monitor); }),
+      2 * others)
+      << "those that draw wait beside those that bake";
+}
+#endif
 
 }  // namespace
 }  // namespace mimicry::lab

@@ -67,7 +67,7 @@ Gallery make_gallery(const lab::StudyRows& rows, const lab::Summary& summary,
   Gallery gallery;
   if (options.count == 0) return gallery;
   const Monitor monitor = terminal_monitor();
-  lab::DrawnStrokes strokes(options.sources, monitor);
+  lab::DrawnStrokes strokes(options.sources, monitor, options.threads);
   const std::vector<lab::StrokePick> picks =
       lab::pick_strokes(rows, summary, options.measure, options.count);
   for (std::size_t i = 0; i < picks.size(); ++i) {
