@@ -16,12 +16,12 @@
 #include "files/file.h"
 #include "files/names.h"
 #include "io/number.h"
+#include "mesh/shown_size.h"
 
 namespace mimicry {
 namespace {
 
 constexpr std::string_view kShapePrefix = "shape:";
-constexpr double kShownDiagonal_m = 0.6;
 
 NamedMesh load_shape(const std::string& spec) {
   const std::string rest = spec.substr(kShapePrefix.size());
@@ -79,8 +79,8 @@ NamedMesh load_mesh(const std::string& spec, const Monitor& monitor) {
   TriangleMesh mesh = is_embedding_file(spec) ? load_baked_surface(spec, name, monitor)
                                               : read_mesh(read_file(spec), mesh_format_of(spec),
                                                           name, read_options(spec, name, monitor));
-  const double size = diagonal(mesh);
-  return {name, std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
+  const double metres_per_unit = shown_metres_per_unit(mesh);
+  return {name, std::move(mesh), metres_per_unit};
 }
 
 std::string find_mesh_file(const std::string& folder, const std::string& name) {

@@ -1,5 +1,6 @@
 #include <mimicry/stroke/stroke.h>
 
+#include "base/comma_list.h"
 #include "capi/handles.h"
 
 using namespace mimicry;
@@ -10,8 +11,7 @@ namespace {
 const CoordinateConvention& convention_of(const char* given) {
   const std::string_view name = text(given, "convention");
   if (const auto* found = find_convention(name)) return *found;
-  std::string names;
-  for (const auto& c : conventions()) names += (names.empty() ? "" : ", ") + std::string(c.name);
+  const std::string names = comma_list(conventions(), [](const auto& c) { return c.name; });
   throw Error(ErrorKind::invalid_input,
               "convention '" + std::string(name) + "' does not exist; choose one of " + names);
 }

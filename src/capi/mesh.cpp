@@ -6,17 +6,16 @@
 #include <mimicry/mesh/validation.h>
 
 #include "capi/handles.h"
+#include "mesh/shown_size.h"
 
 using namespace mimicry;
 using namespace mimicry::capi;
 
 namespace {
 
-constexpr double kShownDiagonal_m = 0.6;
-
 mimicry_mesh shown(std::string name, TriangleMesh mesh) {
-  const double size = diagonal(mesh);
-  return {std::move(name), std::move(mesh), size > 0.0 ? kShownDiagonal_m / size : 1.0};
+  const double metres_per_unit = shown_metres_per_unit(mesh);
+  return {std::move(name), std::move(mesh), metres_per_unit};
 }
 
 void require_count(std::size_t count, std::size_t corners) {

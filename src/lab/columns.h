@@ -39,6 +39,11 @@ inline constexpr std::string_view kGaps = "gaps";
 
 }  // namespace column
 
+/// Whether a cell of a filter or a mark says yes.
+inline bool is_set(std::string_view cell) {
+  return !cell.empty() && cell != "0" && cell != "false";
+}
+
 /// A measure of the paper's table, and how it is written.
 struct PaperMeasure {
   std::string_view column;  ///< of our tables

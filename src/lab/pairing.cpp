@@ -8,6 +8,7 @@
 
 #include <mimicry/base/error.h>
 
+#include "base/comma_list.h"
 #include "io/number.h"
 #include "lab/columns.h"
 #include "lab/study_numbers.h"
@@ -26,19 +27,13 @@ constexpr std::string_view kFilters[] = {column::kShort, column::kNoisy, column:
   throw Error(ErrorKind::invalid_input, what);
 }
 
-std::string list(const std::set<std::string>& names) {
-  std::string all;
-  for (const std::string& n : names) all += (all.empty() ? "" : ", ") + n;
-  return all;
-}
-
 class Columns {
  public:
   Columns(const CsvTable& table, const std::string& name) : table_(table), name_(name) {}
   std::size_t operator[](std::string_view column) const {
     if (const auto at = table_.find(column)) return *at;
     fail(name_ + ": has no column '" + std::string(column) + "'; its columns are " +
-         list({table_.columns.begin(), table_.columns.end()}));
+         comma_list(std::set<std::string>(table_.columns.begin(), table_.columns.end())));
   }
 
  private:
@@ -47,10 +42,8 @@ class Columns {
 };
 
 bool has_failed(const Row& row, const std::vector<std::size_t>& filters) {
-  return std::any_of(filters.begin(), filters.end(), [&row](std::size_t column) {
-    const std::string& cell = row[column];
-    return !cell.empty() && cell != "0" && cell != "false";
-  });
+  return std::any_of(filters.begin(), filters.end(),
+                     [&row](std::size_t column) { return is_set(row[column]); });
 }
 
 struct Pair {
@@ -175,7 +168,7 @@ std::vector<PairedGroup> pair_rows(const CsvTable& table, const PairingOptions& 
     if (!has)
       fail(methods.empty()
                ? name + ": no row is left to compare"
-               : name + ": has no row of method '" + wanted + "', only of " + list(methods));
+               : name + ": has no row of method '" + wanted + "', only of " + comma_list(methods));
 
   std::map<std::string, std::vector<Pair>> by_value;
   std::vector<Pair> all;

@@ -17,10 +17,6 @@ constexpr const char* kSequenceName = "study_sequence.json";
 constexpr std::string_view kRecordingEnding = ".json";
 constexpr char kBeforeIndex = '#';
 
-std::string beside(const std::string& folder, const std::string& name) {
-  return join_path(folder, name);
-}
-
 // Digits alone, as we write them.
 std::optional<long long> digits(std::string_view text) {
   const auto number = parse_integer(text);
@@ -74,12 +70,12 @@ std::string source_name(const std::string& path) {
 
 ParticipantFolder::ParticipantFolder(const std::string& folder)
     : folder_(folder), name_(source_name(folder)) {
-  sequence_ = read_study_sequence(read_file(beside(folder, kSequenceName), Accept::regular),
+  sequence_ = read_study_sequence(read_file(join_path(folder, kSequenceName), Accept::regular),
                                   name_ + "/" + kSequenceName);
 }
 
 std::string ParticipantFolder::path(const RecordingName& recording) const {
-  return beside(folder_, recording.file());
+  return join_path(folder_, recording.file());
 }
 
 std::string ParticipantFolder::title(const RecordingName& recording) const {
@@ -95,12 +91,12 @@ ParticipantWriter::ParticipantWriter(const std::string& folder) : folder_(folder
 void ParticipantWriter::write(const RecordingName& recording,
                               std::span<const RecordedStroke> strokes) const {
   make_folder(folder_);
-  write_file_atomically(beside(folder_, recording.file()), write_recording(strokes));
+  write_file_atomically(join_path(folder_, recording.file()), write_recording(strokes));
 }
 
 void ParticipantWriter::finish(const StudySequence& sequence) const {
   make_folder(folder_);
-  write_file_atomically(beside(folder_, kSequenceName), write_study_sequence(sequence));
+  write_file_atomically(join_path(folder_, kSequenceName), write_study_sequence(sequence));
 }
 
 }  // namespace mimicry::lab

@@ -1,38 +1,26 @@
 #include "lab/study_rows.h"
 
+#include <array>
 #include <limits>
 #include <utility>
 
 #include <mimicry/base/error.h>
 
+#include "base/comma_list.h"
 #include "io/number.h"
 #include "lab/columns.h"
 
 namespace mimicry::lab {
-namespace {
-
-bool is_set(const std::string& cell) {
-  return !cell.empty() && cell != "0" && cell != "false";
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string all;
-  for (const std::string& part : parts)
-    if (!part.empty()) all += (all.empty() ? "" : ", ") + part;
-  return all;
-}
-
-}  // namespace
-
 std::string StudyRow::name() const {
-  return joined({participant, stroke, shape,
-                 curve.empty() ? "" : "curve " + curve + (is_set(repetition) ? " (repeated)" : ""),
-                 task});
+  const std::string which =
+      curve.empty() ? "" : "curve " + curve + (is_set(repetition) ? " (repeated)" : "");
+  return comma_list(std::array{participant, stroke, shape, which, task});
 }
 
 StudyRows::StudyRows(CsvTable table, std::string name)
     : table_(std::move(table)), name_(std::move(name)) {
-  if (!table_.find(column::kMethod))
+  for (std::size_t c = 0; c < table_.columns.size(); ++c) columns_.emplace(table_.columns[c], c);
+  if (!has(column::kMethod))
     throw Error(ErrorKind::invalid_input, name_ + ": has no column '" +
                                               std::string(column::kMethod) +
                                               "'; write it with mimicry measure or replay");
@@ -40,8 +28,8 @@ StudyRows::StudyRows(CsvTable table, std::string name)
     throw Error(ErrorKind::invalid_input, name_ + ": has no rows: no stroke was measured");
   for (std::size_t i = 0; i < table_.rows.size(); ++i) {
     const auto cell = [&](std::string_view column) {
-      const auto at = table_.find(column);
-      return at ? table_.rows[i][*at] : std::string();
+      const std::string* found = cell_of(i, column);
+      return found ? *found : std::string();
     };
     const auto failure = [&](std::string_view column, const char* fault) {
       return is_set(cell(column)) ? fault : "";
@@ -58,18 +46,23 @@ StudyRows::StudyRows(CsvTable table, std::string name)
     row.curve = cell(column::kCurve);
     row.repetition = cell(column::kRepetition);
     row.simulated = cell(column::kSimulated);
-    row.failed =
-        is_set(cell(column::kRejected))
-            ? cell(column::kRejected)
-            : joined({failure(column::kShort, "too short"), failure(column::kNoisy, "noisy"),
-                      failure(column::kInverted, "drawn the other way round")});
+    row.failed = is_set(cell(column::kRejected))
+                     ? cell(column::kRejected)
+                     : comma_list(std::array{
+                           failure(column::kShort, "too short"), failure(column::kNoisy, "noisy"),
+                           failure(column::kInverted, "drawn the other way round")});
     rows_.push_back(std::move(row));
   }
 }
 
+const std::string* StudyRows::cell_of(std::size_t row, std::string_view column) const {
+  const auto at = columns_.find(column);
+  return at == columns_.end() ? nullptr : &table_.rows[row][at->second];
+}
+
 double StudyRows::number(const StudyRow& row, std::string_view column) const {
-  const auto at = table_.find(column);
-  const auto value = at ? parse_double(table_.rows[row.at][*at]) : std::nullopt;
+  const std::string* cell = cell_of(row.at, column);
+  const auto value = cell ? parse_double(*cell) : std::nullopt;
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,12 +40,15 @@ class StudyRows {
   const std::string& file() const { return name_; }
   const CsvTable& table() const { return table_; }
   const std::vector<StudyRow>& rows() const { return rows_; }
-  bool has(std::string_view column) const { return table_.find(column).has_value(); }
+  bool has(std::string_view column) const { return columns_.contains(column); }
   /// NaN where the row has no such number.
   double number(const StudyRow& row, std::string_view column) const;
 
  private:
+  const std::string* cell_of(std::size_t row, std::string_view column) const;
+
   CsvTable table_;
+  std::map<std::string, std::size_t, std::less<>> columns_;  // where each stands
   std::string name_;
   std::vector<StudyRow> rows_;
 };

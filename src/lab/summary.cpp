@@ -10,6 +10,7 @@
 #include <mimicry/study/recording.h>
 #include <mimicry/technique/technique.h>
 
+#include "base/comma_list.h"
 #include "lab/columns.h"
 
 namespace mimicry::lab {
@@ -44,12 +45,9 @@ std::vector<std::string> chosen_methods(const StudyRows& rows,
   if (wanted.empty()) return there;
   std::vector<std::string> chosen;
   for (const std::string& name : wanted) {
-    if (!contains(there, name)) {
-      std::string all;
-      for (const std::string& t : there) all += (all.empty() ? "" : ", ") + t;
-      throw Error(ErrorKind::invalid_input,
-                  "--methods: " + rows.file() + " has no row of '" + name + "', only of " + all);
-    }
+    if (!contains(there, name))
+      throw Error(ErrorKind::invalid_input, "--methods: " + rows.file() + " has no row of '" +
+                                                name + "', only of " + comma_list(there));
     add_once(chosen, name);
   }
   return chosen;

@@ -7,6 +7,8 @@
 #include <mimicry/base/error.h>
 #include <mimicry/mesh/shapes.h>
 
+#include "base/comma_list.h"
+
 namespace mimicry {
 namespace {
 
@@ -83,11 +85,10 @@ const ShapeInfo* find_shape(std::string_view name) {
 TriangleMesh make_shape(std::string_view name, const ShapeOptions& options) {
   const ShapeInfo* shape = find_shape(name);
   const std::string thing = "shape " + std::string(name) + ": ";
-  if (shape == nullptr) {
-    std::string known;
-    for (const ShapeInfo& s : kShapes) known += (known.empty() ? "" : ", ") + std::string(s.name);
-    throw Error(ErrorKind::invalid_input, thing + "unknown; known are " + known);
-  }
+  if (shape == nullptr)
+    throw Error(ErrorKind::invalid_input,
+                thing + "unknown; known are " +
+                    comma_list(kShapes, [](const ShapeInfo& s) { return s.name; }));
   ShapeOptions valid = options;
   if (valid.resolution == 0) valid.resolution = shape->default_resolution;
   if (valid.resolution < shape->least_resolution || valid.resolution > shape->most_resolution)

@@ -14,7 +14,6 @@ mkdir -p "$folder/app"
 ls "$folder"/prefix/share/doc/mimicry/{LICENSE,THIRD_PARTY.md} >/dev/null
 
 program_of cpp "$source/README.md" >"$folder/app/main.cpp"
-diff "$folder/app/main.cpp" "$source/examples/draw/main.cpp"
 cat >"$folder/app/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
 project(app CXX)

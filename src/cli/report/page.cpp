@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/comma_list.h"
 #include "cli/comparison_text.h"
 #include "cli/console.h"
 #include "cli/report/base64.h"
@@ -63,9 +64,7 @@ std::string count(std::size_t n, const std::string& noun) {
 }
 
 std::string joined_names(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& n : names) all += (all.empty() ? "" : ", ") + escaped(n);
-  return all;
+  return comma_list(names, [](const std::string& name) { return escaped(name); });
 }
 
 // True minus signs, and "<" as text.
@@ -258,10 +257,8 @@ std::string bold_spanning_zero(const lab::MethodPair& pair) {
         rows.push_back(std::string(lab::paper_measure(c.name)->html) + " (" +
                        lower_first(group_title(pair.groups[g].name)) + ")");
   if (rows.empty()) return "";
-  std::string list;
-  for (const std::string& row : rows) list += (list.empty() ? "" : ", ") + row;
   return tag("p id=\"spanning-zero\"",
-             "Bold, though the interval of the difference spans 0: " + list +
+             "Bold, though the interval of the difference spans 0: " + comma_list(rows) +
                  ". The two ask different things. The test ranks the differences, so that most "
                  "pairs decide; the interval is of their mean, which a few large differences move "
                  "and widen.") +
