@@ -489,7 +489,7 @@ typedef struct mimicry_technique_info {
   const char* title;       /* for people */
   const char* sentence;    /* for someone who has never read of it */
   const char* description; /* a line, exact */
-  const char* source;      /* section or equation of the paper */
+  const char* source;      /* section or equation of the paper, "-": none */
   const char* screen_note; /* why a pen on a screen draws little with it; empty where it does not */
   uint32_t color;          /* sRGB, 0xrrggbb, of its curves in documents and pictures */
   mimicry_steering steering;

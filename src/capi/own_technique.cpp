@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "capi/handles.h"
 #include "geodesic/site.h"
+#include "technique/options.h"
 
 using namespace mimicry;
 using namespace mimicry::capi;
@@ -19,24 +20,11 @@ std::string copied(const char* text) {
 // Options lie one after the other, each in as many bytes as the largest kind needs.
 constexpr std::size_t kOptionBytes = 3 * sizeof(double);
 
-void put_default(Block& block, const OptionInfo& info, const double* values) {
-  char* to = static_cast<char*>(block.data()) + info.offset;
-  if (info.kind == OptionKind::boolean) {
-    *to = values[0] != 0.0 ? 1 : 0;
-  } else if (info.kind == OptionKind::choice) {
-    const double number = values[0];
-    const bool is_number =
-        std::isfinite(number) && number >= 0.0 && number < static_cast<double>(info.choices.size());
-    const auto whole = static_cast<std::int32_t>(is_number ? number : -1.0);
-    std::memcpy(to, &whole, sizeof whole);
-  } else {
-    std::memcpy(to, values, info.kind == OptionKind::direction ? 24 : 8);
-  }
-}
-
-OptionInfo option_of(const mimicry_option_info& given, std::size_t number) {
+OptionInfo option_of(const TechniqueInfo& row, const mimicry_option_info& given,
+                     std::size_t number) {
   OptionInfo info;
   info.name = copied(given.name);
+  const std::string label = option_label(row, info.name);
   info.unit = copied(given.unit);
   info.description = copied(given.description);
   info.lowest = given.lowest;
@@ -56,14 +44,14 @@ OptionInfo option_of(const mimicry_option_info& given, std::size_t number) {
       break;
     case MIMICRY_OPTION_CHOICE:
       info.kind = OptionKind::choice;
-      if (given.choice_count > 0) require(given.choices, "choices");
+      if (given.choice_count > 0) require(given.choices, (label + ": choices").c_str());
       for (int32_t i = 0; i < given.choice_count; ++i)
-        info.choices.emplace_back(text(given.choices[i], "a choice's name"));
+        info.choices.emplace_back(text(given.choices[i], (label + ": a choice's name").c_str()));
       info.lowest = 0.0;
       info.highest = static_cast<double>(info.choices.size()) - 1.0;
       break;
     default:
-      throw Error(ErrorKind::invalid_input, "option '" + info.name + "' is of no known kind (" +
+      throw Error(ErrorKind::invalid_input, label + " is of no known kind (" +
                                                 std::to_string(static_cast<int>(given.kind)) + ")");
   }
   return info;
@@ -76,8 +64,8 @@ static_assert(static_cast<int>(Answer::section) == MIMICRY_SECTION &&
 // stack: nothing is allocated.
 class CallersStep {
  public:
-  CallersStep(const mimicry_own_technique& own, std::vector<OptionKind> kinds)
-      : step_(own.step), user_(own.user), kinds_(std::move(kinds)) {}
+  CallersStep(const mimicry_own_technique& own, std::vector<OptionInfo> options)
+      : step_(own.step), user_(own.user), options_(std::move(options)) {}
 
   TechniqueStep operator()(const Canvas& canvas, const Frame& frame, const void* options,
                            void* memory) const {
@@ -104,34 +92,16 @@ class CallersStep {
   }
 
  private:
-  static bool is_on(const TriangleMesh& mesh, const SurfacePoint& p) {
-    constexpr double kRounding = 1e-6;
-    return p.face >= 0 && p.face < mesh.face_count() && !repeats_corner(mesh.face(p.face)) &&
-           p.bary.allFinite() && p.bary.minCoeff() >= -kRounding &&
-           std::abs(p.bary.sum() - 1.0) <= kRounding;
-  }
-
   void lay_out(const void* options, double* to) const {
-    const char* at = static_cast<const char*>(options);
-    for (const OptionKind kind : kinds_) {
-      if (kind == OptionKind::boolean) {
-        *to++ = *at != 0 ? 1.0 : 0.0;
-      } else if (kind == OptionKind::choice) {
-        std::int32_t number;
-        std::memcpy(&number, at, sizeof number);
-        *to++ = number;
-      } else {
-        const std::size_t count = kind == OptionKind::direction ? 3 : 1;
-        std::memcpy(to, at, count * sizeof(double));
-        to += count;
-      }
-      at += kOptionBytes;
+    for (const OptionInfo& option : options_) {
+      const OptionValue value = read_option(option, options);
+      to = std::copy(value.begin(), value.end(), to);
     }
   }
 
   mimicry_step_function step_;
   void* user_;
-  std::vector<OptionKind> kinds_;
+  std::vector<OptionInfo> options_;
 };
 
 TechniqueInfo row_of(const mimicry_own_technique& own) {
@@ -140,7 +110,6 @@ TechniqueInfo row_of(const mimicry_own_technique& own) {
   row.title = copied(own.title);
   row.sentence = copied(own.sentence);
   row.description = copied(own.description);
-  row.source = "-";
   row.color = own.color;
   if (own.steering != MIMICRY_AIMED && own.steering != MIMICRY_MOVED)
     throw Error(ErrorKind::invalid_input, "technique '" + row.name +
@@ -163,14 +132,14 @@ TechniqueInfo row_of(const mimicry_own_technique& own) {
   if (own.option_count > 0) require(own.options, "options");
   const auto count = static_cast<std::size_t>(own.option_count);
   row.default_options = Block(count * kOptionBytes);
-  std::vector<OptionKind> kinds;
   for (std::size_t i = 0; i < count; ++i) {
-    row.options.push_back(option_of(own.options[i], i));
-    put_default(row.default_options, row.options.back(), own.options[i].defaults);
-    kinds.push_back(row.options.back().kind);
+    OptionInfo option = option_of(row, own.options[i], i);
+    const std::size_t numbers = option.kind == OptionKind::direction ? 3 : 1;
+    set_default(row, option, {own.options[i].defaults, numbers});
+    row.options.push_back(std::move(option));
   }
   row.first_memory = Block(own.memory_size);
-  row.step = CallersStep(own, std::move(kinds));
+  row.step = CallersStep(own, row.options);
   return row;
 }
 

@@ -9,6 +9,9 @@
 namespace mimicry {
 namespace {
 
+// Of barycentric coordinates that a caller gives.
+constexpr double kTolerance = 1e-6;
+
 int corner_of(const TriangleMesh& mesh, Index face, Index vertex) {
   for (int k = 0; k < 3; ++k)
     if (mesh.face(face)[static_cast<std::size_t>(k)] == vertex) return k;
@@ -40,8 +43,13 @@ Site site_of(const TriangleMesh& mesh, const SurfacePoint& p) {
   return {Site::Kind::face, p.face, 0.0};
 }
 
+bool is_on(const TriangleMesh& mesh, const SurfacePoint& p) {
+  return p.face >= 0 && p.face < mesh.face_count() && !repeats_corner(mesh.face(p.face)) &&
+         p.bary.allFinite() && p.bary.minCoeff() >= -kTolerance &&
+         std::abs(p.bary.sum() - 1.0) <= kTolerance;
+}
+
 void check_surface_point(const TriangleMesh& mesh, const SurfacePoint& p, std::string_view what) {
-  constexpr double kTolerance = 1e-6;
   const auto fail = [&](const std::string& why) {
     throw Error(ErrorKind::invalid_input, std::string(what) + ": " + why);
   };

@@ -22,6 +22,10 @@ inline constexpr double kOnEdge = 1e-10;
 /// The site of p, which must be valid (`check_surface_point`).
 Site site_of(const TriangleMesh& mesh, const SurfacePoint& p);
 
+/// Whether p is a point of the mesh: its face is one of it and has an area to lie in (no corner
+/// twice), its barycentric coordinates are at least -1e-6 and sum to 1 within 1e-6.
+bool is_on(const TriangleMesh& mesh, const SurfacePoint& p);
+
 /// Throws Error(invalid_input) that names `what` where p is not on the mesh: a face out of range, a
 /// barycentric coordinate that is not finite or below -1e-6, or a sum that is not 1 within 1e-6.
 void check_surface_point(const TriangleMesh& mesh, const SurfacePoint& p, std::string_view what);

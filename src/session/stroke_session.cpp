@@ -4,6 +4,7 @@
 #include <mimicry/session/stroke_session.h>
 
 #include "curve/curve_builder.h"
+#include "geodesic/site.h"
 
 namespace mimicry {
 namespace {
@@ -57,6 +58,17 @@ FrameStatus StrokeSession::add(const Frame& frame) {
   return status;
 }
 
+std::optional<Vec3> StrokeSession::ink(const Frame& frame) {
+  if (add(frame) != FrameStatus::inked) return std::nullopt;
+  return model_to_world_.point(builder_->curve().points.back().position);
+}
+
+// A technique of the user's own may answer with what is no answer, or no point of the mesh.
+bool StrokeSession::is_point(const TechniqueStep& step) const {
+  return static_cast<std::size_t>(step.answer) < kAnswerCount && step.answer != Answer::miss &&
+         is_on(canvas_.target.mesh(), step.surface) && step.position.allFinite();
+}
+
 FrameStatus StrokeSession::judge(const Frame& frame) {
   if (!is_usable(frame, last_time_s_)) return FrameStatus::rejected;
   last_time_s_ = frame.time_s;
@@ -66,11 +78,9 @@ FrameStatus StrokeSession::judge(const Frame& frame) {
 
   const Frame model = to_model(frame, model_to_world_);
   const TechniqueStep step = technique_->step(canvas_, model, own_options_.data(), memory_.data());
-  ++answers_[step.answer];
-  // A point that is not on the mesh, of a technique of the user's own, is none.
-  const bool is_point =
-      step.surface.face >= 0 && step.surface.face < canvas_.target.mesh().face_count();
-  if (step.answer == Answer::miss || !is_point) {
+  const Answer answer = is_point(step) ? step.answer : Answer::miss;
+  ++answers_[answer];
+  if (answer == Answer::miss) {
     if (options_.misses == MissPolicy::split) builder_->break_here();
     return FrameStatus::missed;
   }

@@ -8,11 +8,12 @@
 #include <mimicry/base/error.h>
 #include <mimicry/technique/technique.h>
 
-namespace mimicry {
-namespace {
+#include "base/comma_list.h"
 
-OptionValue read(const OptionInfo& info, const Block& block) {
-  const char* at = static_cast<const char*>(block.data()) + info.offset;
+namespace mimicry {
+
+OptionValue read_option(const OptionInfo& info, const void* block) {
+  const char* at = static_cast<const char*>(block) + info.offset;
   switch (info.kind) {
     case OptionKind::boolean:
       return OptionValue(*at != 0 ? 1.0 : 0.0);
@@ -33,6 +34,8 @@ OptionValue read(const OptionInfo& info, const Block& block) {
   std::memcpy(&x, at, sizeof x);
   return OptionValue(x);
 }
+
+namespace {
 
 void write(const OptionInfo& info, Block& block, std::span<const double> values) {
   char* at = static_cast<char*>(block.data()) + info.offset;
@@ -89,6 +92,10 @@ std::size_t alignment_of(OptionKind kind) {
 
 }  // namespace
 
+std::string option_label(const TechniqueInfo& technique, std::string_view option) {
+  return technique.name + ": option '" + std::string(option) + "'";
+}
+
 std::string_view kind_name(OptionKind kind) {
   constexpr std::array<std::string_view, 4> kNames = {"boolean", "number", "direction", "choice"};
   return kNames[static_cast<std::size_t>(kind)];
@@ -113,7 +120,7 @@ Block& TechniqueOptions::edit(const TechniqueInfo& technique) {
 
 OptionValue option_value(const TechniqueInfo& technique, const OptionInfo& option,
                          const TechniqueOptions& options) {
-  return read(option, options.block(technique));
+  return read_option(option, options.block(technique).data());
 }
 
 bool is_listed(const TechniqueInfo& technique, const OptionInfo& option,
@@ -124,24 +131,25 @@ bool is_listed(const TechniqueInfo& technique, const OptionInfo& option,
 
 void set_option(const TechniqueInfo& technique, TechniqueOptions& options, std::string_view name,
                 std::span<const double> values) {
-  const std::string label = technique.name + ": option '" + std::string(name) + "'";
-  std::string names;
+  const std::string label = option_label(technique, name);
   for (const OptionInfo& info : technique.options) {
-    if (info.name != name) {
-      names += (names.empty() ? "" : ", ") + info.name;
-      continue;
-    }
+    if (info.name != name) continue;
     const std::string wrong = fault(info, values);
     if (!wrong.empty()) throw Error(ErrorKind::invalid_input, label + wrong);
     return write(info, options.edit(technique), values);
   }
+  const std::string names =
+      comma_list(technique.options, [](const OptionInfo& info) { return info.name; });
   throw Error(
       ErrorKind::invalid_input,
       label + " does not exist; " + (names.empty() ? "it has none" : "its options are " + names));
 }
 
-void require_sound_option(const TechniqueInfo& technique, const OptionInfo& option) {
-  const std::string label = technique.name + ": option '" + option.name + "'";
+namespace {
+
+// All but its default.
+void require_sound_row(const TechniqueInfo& technique, const OptionInfo& option) {
+  const std::string label = option_label(technique, option.name);
   const std::size_t size = technique.default_options.size();
   const std::size_t bytes = bytes_of(option.kind);
   if (option.offset > size || size - option.offset < bytes)
@@ -160,9 +168,29 @@ void require_sound_option(const TechniqueInfo& technique, const OptionInfo& opti
       throw Error(ErrorKind::invalid_input, label + " has two choices '" + choice + "'");
   if (std::isnan(option.lowest) || std::isnan(option.highest) || option.lowest > option.highest)
     throw Error(ErrorKind::invalid_input, label + ": its lowest value is above its highest");
-  const OptionValue value = read(option, technique.default_options);
-  const std::string wrong = fault(option, {value.begin(), value.end()});
-  if (!wrong.empty()) throw Error(ErrorKind::invalid_input, label + ", its default" + wrong);
+}
+
+void require_sound_default(const TechniqueInfo& technique, const OptionInfo& option,
+                           std::span<const double> values) {
+  const std::string wrong = fault(option, values);
+  if (!wrong.empty())
+    throw Error(ErrorKind::invalid_input,
+                option_label(technique, option.name) + ", its default" + wrong);
+}
+
+}  // namespace
+
+void require_sound_option(const TechniqueInfo& technique, const OptionInfo& option) {
+  require_sound_row(technique, option);
+  const OptionValue value = read_option(option, technique.default_options.data());
+  require_sound_default(technique, option, {value.begin(), value.end()});
+}
+
+void set_default(TechniqueInfo& technique, const OptionInfo& option,
+                 std::span<const double> values) {
+  require_sound_row(technique, option);
+  require_sound_default(technique, option, values);
+  write(option, technique.default_options, values);
 }
 
 }  // namespace mimicry

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
+
 #include <mimicry/technique/technique.h>
 
 namespace mimicry {
@@ -39,6 +43,17 @@ struct SoftAnchorOptions : SprayOptions {
 struct MimicryOptions : SoftAnchorOptions {
   bool replace_failed = false;  ///< as SmoothClosestOptions
 };
+
+/// An option's value in a block of its technique's options. Allocates nothing.
+OptionValue read_option(const OptionInfo& option, const void* block);
+
+/// Writes an option's default to the technique's block of them, for rows that are put together
+/// while the program runs. Throws as `require_sound_option`, before anything is converted.
+void set_default(TechniqueInfo& technique, const OptionInfo& option,
+                 std::span<const double> values);
+
+/// "snap: option 'dipped-pen'", with which refusals begin.
+std::string option_label(const TechniqueInfo& technique, std::string_view option);
 
 /// Throws Error(invalid_input) where a row's option lies outside its block or has a default that
 /// cannot be set.

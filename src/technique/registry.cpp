@@ -8,6 +8,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/technique/technique.h>
 
+#include "base/comma_list.h"
 #include "technique/options.h"
 #include "technique/rows.h"
 
@@ -108,15 +109,15 @@ const TechniqueInfo* technique_named(std::string_view name) {
 
 const TechniqueInfo& find_technique(std::string_view name) {
   if (const TechniqueInfo* found = technique_named(name)) return *found;
-  std::string names;
-  for (const TechniqueInfo& t : techniques()) names += (names.empty() ? "" : ", ") + t.name;
   throw Error(ErrorKind::invalid_input,
-              "technique '" + std::string(name) + "' does not exist; choose one of " + names);
+              "technique '" + std::string(name) + "' does not exist; choose one of " +
+                  comma_list(techniques(), [](const TechniqueInfo& t) { return t.name; }));
 }
 
 const TechniqueInfo& register_technique(TechniqueInfo info) {
   require_sound(info);
   if (info.title.empty()) info.title = info.name;
+  if (info.source.empty()) info.source = "-";
   return registry().add(std::move(info));
 }
 

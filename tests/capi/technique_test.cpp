@@ -124,6 +124,7 @@ TEST(CApiTechniques, OneOfTheCallersIsListedAndDrawnWith) {
   ASSERT_NE(info, nullptr);
   EXPECT_STREQ(info->name, "test-now-and-then");
   EXPECT_STREQ(info->title, "test-now-and-then");
+  EXPECT_STREQ(info->source, "-");
   EXPECT_EQ(info->color, 0xabcdefu);
   ASSERT_EQ(info->option_count, 3);
   EXPECT_EQ(info->options[2].choice_count, 3);
@@ -228,17 +229,26 @@ TEST(CApiTechniques, WhatIsNotSoundIsRefused) {
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = -1; });
   wrong("options; give 0 to 64", [](Row& r) { r.own.option_count = 65; });
   wrong("bytes of memory", [](Row& r) { r.own.memory_size = (std::size_t{1} << 20) + 1; });
-  wrong("no known kind", [](Row& r) { r.options[0].kind = static_cast<mimicry_option_kind>(9); });
+  wrong("test-unsound: option 'towards' is of no known kind",
+        [](Row& r) { r.options[0].kind = static_cast<mimicry_option_kind>(9); });
   wrong("its default", [](Row& r) { r.options[0].defaults[1] = 0.0; });
   wrong("its default", [](Row& r) { r.options[1].defaults[0] = 3.0; });
   wrong("its default",
         [](Row& r) { r.options[1].defaults[0] = std::numeric_limits<double>::quiet_NaN(); });
   wrong("its default", [](Row& r) { r.options[2].defaults[0] = 3.0; });
   wrong("its default", [](Row& r) { r.options[2].defaults[0] = kNaN; });
+  wrong("test-unsound: option 'every', its default: 1.5",
+        [](Row& r) { r.options[2].defaults[0] = 1.5; });
+  for (const double off : {0.5, -1.0, kNaN})
+    wrong("test-unsound: option 'size', its default", [off](Row& r) {
+      r.options[1].kind = MIMICRY_OPTION_BOOLEAN;
+      r.options[1].defaults[0] = off;
+    });
   wrong("its lowest", [](Row& r) { r.options[1].lowest = kNaN; });
   wrong("its lowest", [](Row& r) { r.options[1].lowest = 2.5; });
   wrong("without names", [](Row& r) { r.options[2].choice_count = 0; });
-  wrong("choices is NULL", [](Row& r) { r.options[2].choices = nullptr; });
+  wrong("test-unsound: option 'every': choices is NULL",
+        [](Row& r) { r.options[2].choices = nullptr; });
   wrong("two options 'size'", [](Row& r) { r.options[2].name = "size"; });
   wrong("lower case", [](Row& r) { r.options[2].name = nullptr; });
   EXPECT_EQ(mimicry_technique_count(), count);

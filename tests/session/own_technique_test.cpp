@@ -85,6 +85,7 @@ TEST(OwnTechnique, IsDrawnWithReplayedAndListed) {
   EXPECT_EQ(&lift(), &techniques()[before]) << "it is added at the end";
   EXPECT_EQ(&find_technique("test-lift"), &lift());
   EXPECT_EQ(lift().title, "test-lift") << "the name stands for a missing title";
+  EXPECT_EQ(lift().source, "-") << "it is of no paper";
 
   const Stroke stroke = wave();
   StrokeSession session({target}, lift());
@@ -194,19 +195,32 @@ TEST(OwnTechnique, WhatIsNotSoundIsRefused) {
 }
 
 TEST(OwnTechnique, APointOffTheMeshIsAMiss) {
-  for (const Index face : {Index{-1}, Index{1000000}}) {
+  const double nan = std::nan("");
+  const TechniqueStep sound{Answer::closest, {0, Vec3(0.5, 0.25, 0.25)}, Vec3::Zero()};
+  const auto drawn = [](const TechniqueStep& step) {
     TechniqueInfo row = lift_row("test-off");
-    row.step = [face](const Canvas&, const Frame&, const void*, void*) {
-      TechniqueStep step;
-      step.answer = Answer::closest;
-      step.surface = {face, Vec3(1.0, 0.0, 0.0)};
-      return step;
-    };
+    row.step = [step](const Canvas&, const Frame&, const void*, void*) { return step; };
     StrokeSession session({Target(make_sphere(4))}, row);
     session.begin({});
-    EXPECT_EQ(session.add(Frame{}), FrameStatus::missed);
-    EXPECT_TRUE(session.curve().points.empty());
-  }
+    const bool inked = session.add(Frame{}) == FrameStatus::inked;
+    EXPECT_EQ(session.curve().points.size(), inked ? 1u : 0u);
+    EXPECT_EQ(session.answers()[Answer::closest], inked ? 1 : 0);
+    EXPECT_EQ(session.answers()[Answer::miss], inked ? 0 : 1);
+    return inked;
+  };
+  EXPECT_TRUE(drawn(sound));
+  const auto misses = [&](auto&& change) {
+    TechniqueStep step = sound;
+    change(step);
+    EXPECT_FALSE(drawn(step));
+  };
+  for (const Index face : {Index{-1}, Index{1000000}})
+    misses([&](TechniqueStep& step) { step.surface.face = face; });
+  for (const Vec3& bary :
+       {Vec3(0.5, 0.5, 0.5), Vec3(2.0, -1.0, 0.0), Vec3(nan, 0.5, 0.5), Vec3(0.0, 0.0, 0.0)})
+    misses([&](TechniqueStep& step) { step.surface.bary = bary; });
+  misses([&](TechniqueStep& step) { step.position.y() = nan; });
+  misses([](TechniqueStep& step) { step.answer = static_cast<Answer>(200); });
 }
 
 TEST(StrokeSession, ACanvasWithoutWhatTheTechniqueNeedsIsRefused) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <mimicry/base/types.h>
@@ -70,6 +71,8 @@ class StrokeSession {
   /// nothing is allocated, but where the curve jumps across the object or crosses more than 16
   /// edges a frame. A frame after `end` and before the next `begin` is rejected.
   FrameStatus add(const Frame& frame);
+  /// The same: where it inked, world; nothing where it did not (InkFunction of study/simulate.h).
+  std::optional<Vec3> ink(const Frame& frame);
   /// Ends the stroke; the curve stays readable until the next `begin`.
   void end() { drawing_ = false; }
 
@@ -80,6 +83,7 @@ class StrokeSession {
 
  private:
   FrameStatus judge(const Frame& frame);
+  bool is_point(const TechniqueStep& step) const;
 
   Canvas canvas_;
   const TechniqueInfo* technique_;

@@ -165,17 +165,10 @@ class TechniqueOptions {
   explicit TechniqueOptions(const TechniqueInfo& technique);
 
   bool is_default() const { return block_.empty(); }
-  /// Whose they are; empty where they are the defaults.
-  const std::string& technique() const { return technique_; }
   /// The block for this technique's step; lives as long as both. Throws Error(invalid_input) where
   /// the options are another technique's.
   const Block& block(const TechniqueInfo& technique) const;
   Block& edit(const TechniqueInfo& technique);
-  /// For who knows the technique's own type.
-  template <class T>
-  T& as() {
-    return block_.as<T>();
-  }
 
  private:
   std::string technique_;
@@ -221,7 +214,9 @@ inline constexpr std::size_t kAnswerCount = 8;
 /// One or two words, joined by "-": "smooth", "no-phong-solution".
 std::string_view answer_name(Answer answer);
 
-/// The point for one frame; `surface` and `position` are set where `answer` is not miss.
+/// The point for one frame; `surface` and `position` are set where `answer` is not miss. A session
+/// takes one that is not on the mesh (its barycentric coordinates at least -1e-6, their sum 1
+/// within 1e-6), or not finite, for a miss.
 struct TechniqueStep {
   Answer answer = Answer::miss;
   SurfacePoint surface;
@@ -296,9 +291,10 @@ const TechniqueInfo& find_technique(std::string_view name);
 inline constexpr std::size_t kMostRegistered = 200;
 
 /// Adds a technique to those that sessions, files and programs know by name, until the program
-/// ends. An empty title is the name. Throws Error(invalid_input) where the name is taken or not
-/// written as names are, the step is missing, an option lies outside its block, has a default out
-/// of range or the name of another one, or kMostRegistered are there. Thread-safe.
+/// ends. An empty title is the name, an empty source "-". Throws Error(invalid_input) where the
+/// name is taken or not written as names are, the step is missing, an option lies outside its
+/// block, has a default out of range or the name of another one, or kMostRegistered are there.
+/// Thread-safe.
 const TechniqueInfo& register_technique(TechniqueInfo info);
 
 }  // namespace mimicry
