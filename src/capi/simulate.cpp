@@ -1,7 +1,7 @@
 #include <mimicry/study/simulate.h>
-#include <mimicry/version.h>
 
 #include "capi/handles.h"
+#include "study/simulation_mark.h"
 
 using namespace mimicry;
 using namespace mimicry::capi;
@@ -73,17 +73,14 @@ mimicry_status mimicry_strokes_simulate(mimicry_strokes* strokes, const mimicry_
       const TechniqueInfo& row = usable_technique(*target, technique);
       StrokeSession session(canvas_of(*target), row);
       session.begin(placed);
-      const auto ink = [&](const Frame& frame) -> std::optional<Vec3> {
-        if (session.add(frame) != FrameStatus::inked) return std::nullopt;
-        return placed.point(session.curve().points.back().position);
-      };
-      stroke = simulate_closed_loop(t, meant, placed, chosen, seed, ink);
+      stroke = simulate_closed_loop(t, meant, placed, chosen, seed,
+                                    [&](const Frame& frame) { return session.ink(frame); });
       seen = row.name;
     } else {
       stroke = simulate(t, meant, placed, chosen, seed);
     }
     stroke.target = target_name ? target_name : target->view->name;
-    stroke.simulated = Simulation{"mimicry " MIMICRY_VERSION, seed, seen};
+    stroke.simulated = simulation_mark(seed, seen);
     strokes->strokes.push_back(std::move(stroke));
   });
 }

@@ -1,13 +1,12 @@
 #include "lab/simulated_drawing.h"
 
-#include <optional>
-#include <string>
-
 #include <mimicry/session/stroke_session.h>
 #include <mimicry/study/targets.h>
-#include <mimicry/version.h>
+
+#include "study/simulation_mark.h"
 
 namespace mimicry::lab {
+
 SimulatedDrawing draw_simulated(const Canvas& canvas, const TechniqueInfo& technique,
                                 const SimulatedTask& task, const PopulationOptions& options,
                                 const Participant& person) {
@@ -19,20 +18,13 @@ SimulatedDrawing draw_simulated(const Canvas& canvas, const TechniqueInfo& techn
   StrokeSession session(canvas, technique, split);
   session.begin(task.placed);
   SimulatedDrawing drawing;
-  drawing.stroke =
-      draw_trial(target, task.intended, known, task.kind, task.placed, options, person,
-                 technique.steering, task.trial, [&](const Frame& frame) -> std::optional<Vec3> {
-                   if (session.add(frame) != FrameStatus::inked) return std::nullopt;
-                   return task.placed.point(session.curve().points.back().position);
-                 });
+  drawing.stroke = draw_trial(target, task.intended, known, task.kind, task.placed, options, person,
+                              technique.steering, task.trial,
+                              [&](const Frame& frame) { return session.ink(frame); });
   session.end();
   drawing.stroke.simulated = simulation_mark(task.seed, technique.name);
   drawing.curve = session.curve();
   return drawing;
-}
-
-Simulation simulation_mark(std::uint64_t seed, std::string_view technique) {
-  return {"mimicry " MIMICRY_VERSION, seed, std::string(technique)};
 }
 
 }  // namespace mimicry::lab

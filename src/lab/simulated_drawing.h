@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/study/simulate.h>
@@ -30,8 +29,5 @@ struct SimulatedTask {
 SimulatedDrawing draw_simulated(const Canvas& canvas, const TechniqueInfo& technique,
                                 const SimulatedTask& task, const PopulationOptions& options,
                                 const Participant& person);
-
-/// This program's mark on strokes that it makes up. technique: whose ink was seen, or empty.
-Simulation simulation_mark(std::uint64_t seed, std::string_view technique);
 
 }  // namespace mimicry::lab

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,11 @@
 #include <mimicry/study/targets.h>
 
 #include "assets/target_curves.h"
+#include "base/comma_list.h"
 #include "files/names.h"
 #include "lab/simulated_drawing.h"
 #include "lab/study_shapes.h"
+#include "study/simulation_mark.h"
 
 namespace mimicry::lab {
 namespace {
@@ -80,11 +81,7 @@ Stroke make_stroke(const Canvas& canvas, const Intention& intended, const Simila
     StrokeSession session(canvas, *technique);
     session.begin(placed);
     stroke = simulate_closed_loop(canvas.target, intended, placed, hand, seed,
-                                  [&](const Frame& frame) -> std::optional<Vec3> {
-                                    if (session.add(frame) != FrameStatus::inked)
-                                      return std::nullopt;
-                                    return placed.point(session.curve().points.back().position);
-                                  });
+                                  [&](const Frame& frame) { return session.ink(frame); });
   }
   stroke.simulated = simulation_mark(options.seed, technique == nullptr ? "" : technique->name);
   return stroke;
@@ -129,9 +126,9 @@ std::vector<Stroke> simulated_strokes(const SimulatedStrokesOptions& options,
       }
     }
   if (strokes.empty()) {
-    std::string names;
-    for (const auto& curve : task.curves) names += (names.empty() ? "" : ", ") + curve.name;
-    throw Error(ErrorKind::invalid_input, "simulate: no such curve; there are " + names);
+    const auto name = [](const Intention& curve) { return curve.name; };
+    throw Error(ErrorKind::invalid_input,
+                "simulate: no such curve; there are " + comma_list(task.curves, name));
   }
   return strokes;
 }
