@@ -1,7 +1,8 @@
-#include <array>
+#include "assets/curve_files.h"
+
 #include <filesystem>
+#include <string>
 #include <utility>
-#include <vector>
 
 #include <mimicry/assets/files.h>
 #include <mimicry/base/error.h>
@@ -10,14 +11,9 @@
 #include "files/names.h"
 
 namespace mimicry {
-namespace {
 
-constexpr double kTubeRadius = 0.003;  // of the mesh's diagonal
-
-using Colors = std::vector<std::array<unsigned char, 3>>;
-
-Colors colors_of(const CurveSet& set) {
-  Colors colors;
+std::vector<std::array<unsigned char, 3>> curve_colors(const CurveSet& set) {
+  std::vector<std::array<unsigned char, 3>> colors;
   for (const CurveRecord& record : set.curves) {
     const TechniqueInfo* technique = technique_named(record.technique);
     const std::uint32_t rgb = technique ? technique->color : TechniqueInfo{}.color;
@@ -27,20 +23,16 @@ Colors colors_of(const CurveSet& set) {
   return colors;
 }
 
-std::string curve_bytes(const std::string& path, const CurveSet& set, const TriangleMesh& mesh) {
-  const std::string ending = to_text(to_path(path).extension());
-  if (ending == ".json") return write_curves_json(set, mesh);
-  if (ending == ".obj") return write_curves_obj(set, mesh);
-  if (ending == ".csv") return write_curves_csv(set, mesh);
-  const double radius = kTubeRadius * diagonal(mesh);
-  if (ending == ".glb") return write_curves_glb(set, mesh, colors_of(set), radius);
-  if (ending == ".ply") return write_curves_ply(set, mesh, colors_of(set), radius);
-  throw Error(ErrorKind::unsupported, path + ": '" + ending +
-                                          "' is no format of curves; name the file .json, .obj, "
-                                          ".csv, .glb or .ply");
+std::optional<CurveFormat> curve_format_of(std::string_view ending) {
+  constexpr std::pair<std::string_view, CurveFormat> kEndings[] = {{"json", CurveFormat::json},
+                                                                   {"obj", CurveFormat::obj},
+                                                                   {"csv", CurveFormat::csv},
+                                                                   {"glb", CurveFormat::glb},
+                                                                   {"ply", CurveFormat::ply}};
+  for (const auto& [known, format] : kEndings)
+    if (known == ending) return format;
+  return std::nullopt;
 }
-
-}  // namespace
 
 CurveRecord curve_record(const Stroke& stroke, const TechniqueInfo& technique, ProjectedCurve curve,
                          const TechniqueOptions& options) {
@@ -58,7 +50,15 @@ CurveRecord curve_record(const Stroke& stroke, const TechniqueInfo& technique, P
 }
 
 void save_curves(const std::string& path, const CurveSet& set, const TriangleMesh& mesh) {
-  write_file_atomically(path, curve_bytes(path, set, mesh));
+  const std::string ending = to_text(to_path(path).extension());
+  const auto format = curve_format_of(ending.empty() ? ending : ending.substr(1));
+  if (!format)
+    throw Error(ErrorKind::unsupported, path + ": '" + ending +
+                                            "' is no format of curves; name the file .json, .obj, "
+                                            ".csv, .glb or .ply");
+  const auto colors = curve_colors(set);
+  write_file_atomically(path,
+                        write_curves(*format, set, mesh, {colors, kTubeRadius * diagonal(mesh)}));
 }
 
 }  // namespace mimicry

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <mimicry/io/curves.h>
 
 #include "capi/handles.h"
+#include "io/curve_formats.h"
 
 using namespace mimicry;
 using namespace mimicry::capi;
@@ -18,40 +18,23 @@ namespace {
 
 using Color = std::array<unsigned char, 3>;
 
-void require_tubes(const CurveSet& set, double radius) {
-  const bool all_have = std::all_of(set.curves.begin(), set.curves.end(),
-                                    [](const CurveRecord& r) { return !r.radii.empty(); });
-  if (!all_have && (!std::isfinite(radius) || radius <= 0.0))
-    throw Error(ErrorKind::invalid_input, "the tubes' radius is not above 0");
+CurveFormat format_of(mimicry_curve_format format) {
+  const int number = static_cast<int>(format);
+  if (number < 0 || number >= kCurveFormats)
+    throw Error(ErrorKind::invalid_input, "there is no curve format " + std::to_string(number));
+  return static_cast<CurveFormat>(number);
 }
 
-std::string file_bytes(mimicry_curve_format format, const CurveSet& set, const TriangleMesh& mesh,
-                       const std::vector<Color>& colors, double radius) {
-  switch (format) {
-    case MIMICRY_CURVES_JSON:
-      return write_curves_json(set, mesh);
-    case MIMICRY_CURVES_OBJ:
-      return write_curves_obj(set, mesh);
-    case MIMICRY_CURVES_CSV:
-      return write_curves_csv(set, mesh);
-    case MIMICRY_CURVES_PLY:
-      require_tubes(set, radius);
-      return write_curves_ply(set, mesh, colors, radius);
-    case MIMICRY_CURVES_GLB:
-      require_tubes(set, radius);
-      return write_curves_glb(set, mesh, colors, radius);
-    case MIMICRY_CURVES_OBJ_POLYLINES:
-      return write_curves_obj(set, mesh, ObjLines::polylines);
-    case MIMICRY_CURVES_PLY_LINES:
-      return write_curves_ply_lines(set, mesh, colors);
-    case MIMICRY_CURVES_GLB_LINES:
-      return write_curves_glb_lines(set, mesh, colors);
-    case MIMICRY_CURVES_PACKED:
-      return write_curves_packed(set, mesh);
-  }
-  throw Error(ErrorKind::invalid_input,
-              "there is no curve format " + std::to_string(static_cast<int>(format)));
-}
+static_assert(static_cast<int>(CurveFormat::json) == MIMICRY_CURVES_JSON &&
+              static_cast<int>(CurveFormat::obj) == MIMICRY_CURVES_OBJ &&
+              static_cast<int>(CurveFormat::csv) == MIMICRY_CURVES_CSV &&
+              static_cast<int>(CurveFormat::ply) == MIMICRY_CURVES_PLY &&
+              static_cast<int>(CurveFormat::glb) == MIMICRY_CURVES_GLB &&
+              static_cast<int>(CurveFormat::obj_polylines) == MIMICRY_CURVES_OBJ_POLYLINES &&
+              static_cast<int>(CurveFormat::ply_lines) == MIMICRY_CURVES_PLY_LINES &&
+              static_cast<int>(CurveFormat::glb_lines) == MIMICRY_CURVES_GLB_LINES &&
+              static_cast<int>(CurveFormat::packed) == MIMICRY_CURVES_PACKED &&
+              kCurveFormats == MIMICRY_CURVES_PACKED + 1);
 
 }  // namespace
 
@@ -72,7 +55,8 @@ mimicry_status mimicry_curves_write(const mimicry_target* target, const char* ta
       set.curves.push_back(curves[i]->record);
       if (colors) std::copy_n(colors + 3 * i, 3, chosen[i].begin());
     }
-    return mimicry_bytes{file_bytes(format, set, target->target->mesh(), chosen, tube_radius)};
+    return mimicry_bytes{
+        write_curves(format_of(format), set, target->target->mesh(), {chosen, tube_radius})};
   });
 }
 

@@ -14,6 +14,7 @@
 #include <mimicry/session/stroke_session.h>
 
 #include "assets/canvas.h"
+#include "assets/curve_files.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/options.h"
@@ -24,7 +25,6 @@
 #include "files/output_lock.h"
 #include "io/number.h"
 #include "io/tube_mesh.h"
-#include "render/palette.h"
 #include "study/polyline.h"
 
 namespace mimicry::cli {
@@ -170,27 +170,15 @@ CurveRecord draw(const Canvas& canvas, const TechniqueInfo& info, const Stroke& 
   return curve_record(stroke, info, std::move(drawn.curve), options.technique);
 }
 
-std::array<unsigned char, 3> color_of(const std::string& technique) {
-  const render::Color c = render::technique_color(technique);
-  const auto byte = [](double x) { return static_cast<unsigned char>(x * 255.0 + 0.5); };
-  return {byte(c.r), byte(c.g), byte(c.b)};
-}
-
-std::string file_bytes(const std::string& format, const CurveSet& set, const TriangleMesh& mesh,
-                       const ProjectArguments& args, double tube_radius) {
-  std::vector<std::array<unsigned char, 3>> colors;
-  for (const CurveRecord& record : set.curves) colors.push_back(color_of(record.technique));
-  if (format == "json") return write_curves_json(set, mesh);
-  if (format == "obj")
-    return write_curves_obj(
-        set, mesh, args.obj_lines == "polylines" ? ObjLines::polylines : ObjLines::segments);
-  if (format == "csv") return write_curves_csv(set, mesh);
+// A format by its name, in the form that was asked for.
+CurveFormat format_of(const std::string& name, const ProjectArguments& args) {
+  const CurveFormat format = curve_format_of(name).value();  // the option takes no other
   const bool lines = args.curves_as == "lines";
-  if (format == "glb")
-    return lines ? write_curves_glb_lines(set, mesh, colors)
-                 : write_curves_glb(set, mesh, colors, tube_radius);
-  return lines ? write_curves_ply_lines(set, mesh, colors)
-               : write_curves_ply(set, mesh, colors, tube_radius);
+  if (format == CurveFormat::obj && args.obj_lines == "polylines")
+    return CurveFormat::obj_polylines;
+  if (format == CurveFormat::glb && lines) return CurveFormat::glb_lines;
+  if (format == CurveFormat::ply && lines) return CurveFormat::ply_lines;
+  return format;
 }
 
 // As thick as the pen was pressed; none for a device without pressure.
@@ -231,7 +219,7 @@ void run_project(const ProjectArguments& args, int& status) {
   const auto output_lock = OutputLock::of_folder(args.out);
   const Canvas canvas = make_canvas(target, chosen, terminal_monitor(), args.embedding, args.bake);
 
-  const double radius = args.tube_radius > 0.0 ? args.tube_radius : 0.003 * target.diagonal();
+  const double radius = args.tube_radius > 0.0 ? args.tube_radius : kTubeRadius * target.diagonal();
   CurveSet set{named.name, {}};
   std::vector<TechniqueRow> rows;
   {
@@ -254,9 +242,10 @@ void run_project(const ProjectArguments& args, int& status) {
   }
 
   // All bytes are made before the first file is written.
+  const auto colors = curve_colors(set);
   std::vector<std::string> bytes;
   for (const std::string& format : args.formats)
-    bytes.push_back(file_bytes(format, set, target.mesh(), args, radius));
+    bytes.push_back(write_curves(format_of(format, args), set, target.mesh(), {colors, radius}));
   std::vector<std::string> written;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     written.push_back(join_path(args.out, "curves." + args.formats[i]));

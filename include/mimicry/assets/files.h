@@ -23,8 +23,8 @@ StrokesFile load_strokes(const std::string& path);
 /// The target curves of a file. Throws Error as `read_targets` does.
 TargetSet load_target_curves(const std::string& path);
 
-/// A curve with all that files tell of it: the stroke that it was drawn from, the technique and the
-/// options that it was drawn with.
+/// A curve with what files tell of where it came from: the stroke that it was drawn from, the
+/// technique and the options that it was drawn with. It has no radii: its tube has the file's.
 CurveRecord curve_record(const Stroke& stroke, const TechniqueInfo& technique, ProjectedCurve curve,
                          const TechniqueOptions& options = {});
 
