@@ -23,7 +23,7 @@ struct EdgeTurns {
 inline EdgeTurns edge_turns(const SmoothProjector& projector) {
   const TriangleMesh& mesh = projector.target().mesh();
   const HalfEdges& edges = projector.target().half_edges();
-  const PhongSurface& surface = projector.projection().surface();
+  const PhongSurface& surface = projection_of(projector).surface();
   // Coordinates along the edge and to the left of it, of the edge and a side.
   const auto layout = [](const auto& edge, const auto& side, double sign) {
     const double along = side.dot(edge) / edge.norm();

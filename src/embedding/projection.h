@@ -89,4 +89,9 @@ class SmoothProjection {
   Bvh<3, Tetrahedron> shell_;
 };
 
+/// What a projector that is not empty works with, for tests and benchmarks.
+inline const SmoothProjection& projection_of(const SmoothProjector& projector) {
+  return *projector.projection_;
+}
+
 }  // namespace mimicry

@@ -71,7 +71,7 @@ TEST(SmoothProjector, LocatesInTheTetrahedronThatContains) {
     int outside = 0;
     for (int i = 0; i < 300; ++i) {
       const Vec3 y = shape->query(random);
-      const ShellPoint place = shape->projector.projection().locate(y);
+      const ShellPoint place = projection_of(shape->projector).locate(y);
       if (place.tet == kNone) {
         // Everything within the offset is covered.
         const auto closest = shape->target.closest_point(y);

@@ -73,10 +73,9 @@ class SmoothProjector {
   /// Heap memory held, without the target's.
   std::size_t memory_bytes() const;
 
-  /// For the tests and benchmarks of this library.
-  const SmoothProjection& projection() const { return *projection_; }
-
  private:
+  friend const SmoothProjection& projection_of(const SmoothProjector& projector);
+
   std::shared_ptr<const SmoothProjection> projection_;
 };
 
