@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # readme_program.sh CMAKE GENERATOR SOURCE BUILD FOLDER: installs BUILD into FOLDER and builds the README's
 # program against it: through CMake, through pkg-config, and there with flags and compilers that the library was
-# not built with. All of them draw the same, to the last bit. The installed program finds the studio's page.
+# not built with. All of them draw the same, to the last bit.
 set -euo pipefail
 cmake=$1 generator=$2 source=$3 build=$4 folder=$5
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -43,10 +43,3 @@ grep -qw avx2 /proc/cpuinfo && by_pkg_config avx2 c++ -O2 -mavx2
 by_pkg_config address c++ -O1 -fsanitize=address
 # With Debian's libstdc++: clang's libc++ has other types, and does not link with a library built for this one.
 by_pkg_config clang clang++ -O2
-
-page=$source/web/dist/index.html
-if [ -f "$page" ]; then
-  python3 "$here/installed_studio.py" "$folder/prefix/bin/mimicry" "$page"
-else
-  echo "readme_program: the studio's page is not built; not looked for" >&2
-fi
