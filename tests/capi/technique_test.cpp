@@ -203,6 +203,8 @@ TEST(CApiTechniques, AFrameOfTheCallersAllocatesNothing) {
   for (std::size_t i = 1; i < frames.size(); ++i)
     ASSERT_EQ(mimicry_session_add(session.get(), &frames[i], nullptr), MIMICRY_OK);
   EXPECT_EQ(mimicry::test::allocation_count(), before);
+  EXPECT_EQ(seen().calls, 40);
+  EXPECT_EQ(mimicry_session_ink_count(session.get()), 40u);
 }
 
 TEST(CApiTechniques, WhatIsNotSoundIsRefused) {

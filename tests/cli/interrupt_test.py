@@ -139,7 +139,7 @@ class Interrupts(Folder):
 
     def test_participants_and_measure(self):
         known = self.study()
-        count = 6
+        count = 3
         names = [f"p{p:02}/{name}" for p in range(count) for name in
                  ("0_0.json", "2_0.json", "study_sequence.json")]
         participants = ("participants", *known, "--count", str(count), "-t", "spraycan,snap")

@@ -283,8 +283,10 @@ TEST(SmoothProjector, QueriesAllocateNothing) {
     for (int i = 0; i < 40; ++i) queries.push_back(shape->query(random, 0.2));
     ScpHint hint;
     const long before = test::allocation_count();
-    for (const Vec3& y : queries) shape->projector.project(y, {true}, &hint);
+    int found = 0;
+    for (const Vec3& y : queries) found += shape->projector.project(y, {true}, &hint).has_value();
     EXPECT_EQ(test::allocation_count(), before);
+    EXPECT_EQ(found, 40) << shape->name;
   }
 }
 

@@ -74,15 +74,21 @@ void expect_same_attributes(const TriangleMesh& got, const TriangleMesh& wanted,
   EXPECT_EQ(of_faces(g.objects), of_faces(w.objects));
 }
 
-/// A tetrahedron with a seam in its texture coordinates, colours by vertex and names.
+/// A tetrahedron with a seam in its texture coordinates, colours by vertex (bytes: as bytes hold
+/// them) and names.
 TriangleMesh painted(bool bytes) {
   TriangleMesh mesh = tetrahedron();
   MeshAttributes a;
   a.texcoords.values = {{0.1f, 0.25f}, {0.75f, 0.3f}, {1.0f, 1.0f}, {-2.5f, 1e-3f}, {0.5f, 0.125f}};
   a.texcoords.corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 4, 0, 3};
-  for (const float x : {0.0f, 0.2f, 0.9f, 1.0f})
-    a.colors.values.push_back(
-        {bytes ? static_cast<float>(linear_from_srgb(51.0 / 255.0)) : x, 0.0f, 1.0f, 1.0f});
+  const auto byte = [](int x) { return static_cast<float>(linear_from_srgb(x / 255.0)); };
+  // No two are alike, nor are the parts of one: what is exchanged is noticed.
+  if (bytes)
+    for (const int x : {51, 102, 204, 255})
+      a.colors.values.push_back({byte(x), byte(x - 50), byte(x - 51), 1.0f});
+  else
+    for (const float x : {0.1f, 0.2f, 0.9f, 1.0f})
+      a.colors.values.push_back({x, 0.5f * x, 1.0f - 0.75f * x, 1.0f});
   for (const Face& face : mesh.faces())
     a.colors.corners.insert(a.colors.corners.end(), face.begin(), face.end());
   a.groups = {{"lower side", "upper"}, {0, 1, 1, kNone}};

@@ -10,6 +10,8 @@
 #include <mimicry/io/meshes.h>
 #include <mimicry/io/study.h>
 
+#include "support/sanitized.h"
+
 namespace mimicry {
 namespace {
 
@@ -91,6 +93,7 @@ TEST(Targets, TheStudysFileFitsItsMeshes) {
   for (const TargetShape& shape : set.shapes) {
     SCOPED_TRACE(shape.name);
     EXPECT_EQ(shape.curves.size(), 10u);
+    if (test::kSanitized && &shape != &set.shapes.front()) continue;  // one mesh takes ten seconds
     const TriangleMesh mesh =
         read_mesh(bytes(folder / (shape.name + ".obj")), MeshFormat::obj, shape.name);
     EXPECT_NO_THROW(require_fits(shape, mesh));

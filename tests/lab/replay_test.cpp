@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -139,6 +141,25 @@ SimulatedStudyOptions small_study(const test::TestFolder& folder,
   return options;
 }
 
+// What `measure` finds of curves as recorded, on a mesh that stands in a folder.
+RecordedStudy measured(const test::TestFolder& folder, std::vector<std::string> participants) {
+  std::filesystem::create_directories(folder.path("shapes"));
+  write_file_atomically(folder.path("shapes/torus.obj"),
+                        write_mesh(load_mesh("shape:torus").mesh, MeshFormat::obj));
+  RecordedStudyOptions options;
+  options.participants = std::move(participants);
+  options.shapes = folder.path("shapes");
+  options.targets = folder.path("t.json");
+  return measure_recordings(options);
+}
+
+StudyRows rows_of(const RecordedStudy& study) {
+  std::string table = rows_heading();
+  for (const MeasuredRow& row : study.rows) table += csv_row(row);
+  return StudyRows(read_rows(table, "m.csv"), "m.csv");
+}
+
+// A curve that was recorded with a technique, and the same stroke drawn again with it.
 TEST(Replay, MeasureAndReplayWriteTheSameColumns) {
   const test::TestFolder folder;
   const SimulatedStudyOptions study = small_study(folder);
@@ -154,6 +175,25 @@ TEST(Replay, MeasureAndReplayWriteTheSameColumns) {
   EXPECT_EQ(result.rejected, 0u);
   const StudyRows replayed = rows_of_file(result.rows_file);
   EXPECT_EQ(replayed.table().columns, row_columns());
+  const StudyRows recorded = rows_of(measured(folder, options.strokes));
+  EXPECT_EQ(recorded.table().columns, replayed.table().columns);
+  std::size_t same = 0;
+  for (const StudyRow& a : recorded.rows())
+    for (const StudyRow& b : replayed.rows()) {
+      if (a.method != "spraycan" || a.participant != b.participant || a.recording != b.recording ||
+          a.index != b.index)
+        continue;
+      SCOPED_TRACE(a.name());
+      ++same;
+      EXPECT_EQ(std::tie(a.shape, a.curve, a.repetition, a.task, a.simulated),
+                std::tie(b.shape, b.curve, b.repetition, b.task, b.simulated));
+      for (const char* column : {"D_ep_mm", "D_sym_mm", "K_E", "T_h", "T_c", "tau_s"}) {
+        const double value = recorded.number(a, column);
+        EXPECT_GT(value, 0.0) << column;
+        EXPECT_NEAR(replayed.number(b, column), value, 1e-3 * value) << column;
+      }
+    }
+  EXPECT_EQ(same, 8u);
   StrokeSources sources;
   add_replay_sources(folder.path("replay"), sources);
   DrawnStrokes strokes(sources);

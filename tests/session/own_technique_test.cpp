@@ -151,6 +151,7 @@ TEST(OwnTechnique, AllocatesNothingInAFrame) {
   const long before = test::allocation_count();
   for (std::size_t i = 1; i < stroke.frames.size(); ++i) session.add(stroke.frames[i]);
   EXPECT_EQ(test::allocation_count(), before);
+  EXPECT_EQ(session.curve().points.size(), stroke.frames.size());
 }
 
 std::string refusal(TechniqueInfo row) {

@@ -100,8 +100,14 @@ TEST(SignedDistance, AllocatesNothing) {
   const Target target(make_sphere(8));
   const WindingNumber winding(target.mesh());
   const long before = test::allocation_count();
-  for (int i = 0; i < 20; ++i) signed_distance(target, winding, Vec3(0.1 * i, 0.2, 0.3));
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto distance = signed_distance(target, winding, Vec3(0.1 * i, 0.2, 0.3));
+    if (distance) ++(*distance < 0.0 ? inside : outside);
+  }
   EXPECT_EQ(test::allocation_count(), before);
+  EXPECT_GT(inside, 5);
+  EXPECT_EQ(inside + outside, 20);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "any_memory.h"
 #include "support/baked.h"
+#include "support/sanitized.h"
 
 namespace mimicry {
 namespace {
@@ -72,6 +73,7 @@ TEST(Continuity, NoStepIsLongerThanFiveTimesTheHandsOnThePlate) {
 }
 
 TEST(Continuity, NoStepIsLongerThanFiveTimesTheHandsOnTheHand) {
+  if (test::kSanitized) GTEST_SKIP() << "the trefoil and the plate go the same ways, in less time";
   expect_continuous("hand", 2, {1});
 }
 

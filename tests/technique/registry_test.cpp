@@ -1,6 +1,7 @@
 #include <array>
 #include <limits>
 #include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,15 +34,42 @@ TEST(Registry, UnknownNameIsAnsweredWithTheList) {
   }
 }
 
+// A legal value that is not the given one.
+OptionValue another(const OptionInfo& option, const OptionValue& than) {
+  switch (option.kind) {
+    case OptionKind::direction:
+      return OptionValue(std::array{than[1], than[2], than[0] == 0.5 ? 0.25 : 0.5});
+    case OptionKind::number:
+      return OptionValue(than[0] == option.highest ? option.lowest : option.highest);
+    default:
+      return OptionValue(than[0] == 0.0 ? 1.0 : 0.0);
+  }
+}
+
 TEST(Registry, DefaultsOfOptionsAreLegalAndCanBeSet) {
+  int count = 0;
   for (const TechniqueInfo& info : techniques())
     for (const OptionInfo& option : info.options) {
+      SCOPED_TRACE(std::string(info.name) + " " + option.name);
       TechniqueOptions options;
       const OptionValue usual = option_value(info, option, options);
-      EXPECT_NO_THROW(set_option(info, options, option.name, {usual.begin(), usual.end()}))
-          << info.name << option.name;
-      EXPECT_EQ(option_value(info, option, options), usual) << info.name << option.name;
+      const OptionValue other = another(option, usual);
+      ASSERT_NE(other, usual);
+      const auto set = [&](const OptionValue& value) {
+        EXPECT_NO_THROW(set_option(info, options, option.name, {value.begin(), value.end()}));
+        EXPECT_EQ(option_value(info, option, options), value);
+      };
+      set(other);
+      // And no other option than that.
+      for (const OptionInfo& rest : info.options) {
+        if (rest.name == option.name) continue;
+        EXPECT_EQ(option_value(info, rest, options), option_value(info, rest, {})) << rest.name;
+      }
+      set(usual);
+      EXPECT_TRUE(options.is_default());
+      ++count;
     }
+  EXPECT_GT(count, 10);
 }
 
 TEST(Registry, WrongOptionsAreRefusedAndChangeNothing) {
