@@ -18,7 +18,7 @@ try {
     if (!/^(data|blob):/.test(request.url())) requests.push(request.url());
   });
   await tab.goto(pathToFileURL(page).href);
-  await tab.waitForFunction(() => document.body.dataset.drawn !== undefined, undefined, { timeout: 60000 });
+  await tab.waitForFunction(() => document.body.dataset.drawn !== undefined, undefined, { timeout: 300000 });
   const result = await tab.evaluate(() => ({
     drawn: document.body.dataset.drawn,
     plots: [...document.querySelectorAll('[data-figure]')].map((place) => ({

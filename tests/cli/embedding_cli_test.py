@@ -345,7 +345,7 @@ class Embeddings(unittest.TestCase):
         together = [subprocess.Popen([PROGRAM, "bake", SHAPE, "-o", self.path(f"{i}.mimicry"),
                                       "--samples", "90"], env=environment,
                                      stdout=subprocess.DEVNULL) for i in range(4)]
-        self.assertEqual([p.wait(120) for p in together], [0] * 4)
+        self.assertEqual([p.wait(1800) for p in together], [0] * 4)
         self.assertEqual(len(os.listdir(self.path("cache"))), 1)
         self.assertIn("earlier", self.run_cli("bake", SHAPE, "-o", self.path("a"), "--samples",
                                               "90").stdout)
@@ -365,7 +365,7 @@ class Embeddings(unittest.TestCase):
 
     def wait_until_caught(self, process, number):
         """Before the program has begun, a signal ends it in the system's own way."""
-        for _ in range(600):
+        for _ in range(6000):
             with open(f"/proc/{process.pid}/status", encoding="ascii") as status:
                 caught = next(line for line in status if line.startswith("SigCgt"))
             if int(caught.split()[1], 16) >> (number - 1) & 1:

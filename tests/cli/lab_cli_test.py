@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, STUDY = sys.argv[1:3]
@@ -193,19 +194,26 @@ class Replay(Folder):
             self.assertEqual(self.read("a", name), self.read("c", name))
 
     def test_killed_runs_go_on_and_lose_or_double_nothing(self):
-        file = self.strokes(40)
+        file = self.strokes(16)
         known = ["--strokes", file, "--mesh", "shape:torus:24", "--threads", "1"]
         self.replay("whole", *known)
         command = [PROGRAM, "replay", "--out", self.path("cut"), "-t", self.TECHNIQUES, *known]
-        kills = 0
-        for wait in (0.02, 0.05, 0.1, 0.15, 0.2, 0.1, 0.3):
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        def written():
             try:
-                process.wait(timeout=wait)
-            except subprocess.TimeoutExpired:
+                return sum(entry.stat().st_size for entry in os.scandir(self.path("cut")))
+            except FileNotFoundError:  # no folder yet, or a file that was renamed just now
+                return 0
+
+        kills = 0
+        for _ in range(6):
+            before = written()
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            while process.poll() is None and written() <= before:  # it has come further
+                time.sleep(0.002)
+            if process.poll() is None:
                 process.kill()
-                process.wait()
                 kills += 1
+            process.wait()
         self.assertGreater(kills, 0)
         self.replay("cut", *known)
         for name in ("rows.csv", "rows.jsonl"):

@@ -80,13 +80,13 @@ class ServeAttack(Case):
             dripping.start()
             try:
                 for s in uploads:
-                    s.settimeout(60)
+                    s.settimeout(300)
                     try:
                         answer = s.recv(4096)
                     except ConnectionError:
                         answer = b""
                     self.assertIn(answer[:12], [b"HTTP/1.1 408", b""])
-                slow_head.settimeout(90)
+                slow_head.settimeout(300)
                 try:
                     self.assertEqual(slow_head.recv(4096), b"")
                 except ConnectionError:
@@ -105,7 +105,7 @@ class ServeAttack(Case):
             # Nor do more than one client may send at a time: the slowest makes room.
             for _ in range(20):
                 self.hold(server, post("/api/bake?name=a.obj", b"v 0 0 0\n", length=100_000_000))
-            end = time.monotonic() + 20
+            end = time.monotonic() + 300
             while (status := server.bake("ball.obj", mesh)[0]) == 503 and time.monotonic() < end:
                 time.sleep(0.2)
             self.assertEqual(status, 200)
@@ -139,7 +139,7 @@ class ServeAttack(Case):
                 with server.socket() as s:
                     s.sendall([post("/api/bake?name=a.obj", mesh), post("/api/bake?name=a.obj", b"x" * 100), post("/api/bake", b"", length=1 << 40),
                                post("/api/bake?name=a.glb", b"glTF\x02\0\0\0" + b"\xff" * 100)][n % 4])
-            end = time.monotonic() + 60
+            end = time.monotonic() + 300
             while (status := server.bake("ball.obj", mesh)[0]) == 503 and time.monotonic() < end:
                 time.sleep(0.1)
             self.assertEqual(status, 200)
@@ -149,12 +149,12 @@ class ServeAttack(Case):
     def test_handshakes_that_do_not_end(self):
         with Served(self.work, "--lan") as server:
             for n in range(300):
-                s = socket.create_connection(("127.0.0.1", server.port), timeout=60)
+                s = socket.create_connection(("127.0.0.1", server.port), timeout=300)
                 self.held.append(s)
                 s.sendall([b"", b"\x16\x03\x01", b"\x16\x03\x01\x00\xff\x01"][n % 3])
             self.assert_alive(server)
             # One whose client waits on is ended by the server (after ten seconds).
-            self.held[0].settimeout(60)
+            self.held[0].settimeout(300)
             try:
                 self.assertEqual(self.held[0].recv(10), b"")
             except ConnectionError:

@@ -168,7 +168,7 @@ class ServeBake(Case):
         with Served(self.work) as server, server.socket() as s:
             s.sendall(post("/api/bake?name=torus.obj", mesh))
             seen = set()
-            end = time.monotonic() + 60
+            end = time.monotonic() + 300
             while len(seen) < 2 and time.monotonic() < end:
                 if "bake" in (status := server.status()):
                     seen.add((status["bake"]["stage"], status["bake"]["fraction"]))

@@ -40,7 +40,7 @@ class ServeRequests(Case):
                 bake + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n", bake + b"Transfer-Encoding: chunked\r\n\r\n5\r\nabc",
                 bake + b"Content-Length: 100\r\n\r\nv 0 0 0\n"]:
             with self.subTest(request=request):
-                with socket.create_connection(("127.0.0.1", self.server.port), timeout=60) as s:
+                with socket.create_connection(("127.0.0.1", self.server.port), timeout=300) as s:
                     s.sendall(request)
                     s.shutdown(socket.SHUT_WR)
                     answer = b""

@@ -52,14 +52,14 @@ class Served:
         if self.process.poll() is None:
             self.process.send_signal(number)
         if not self.process.stdout.closed:
-            self.rest, self.errors = self.process.communicate(timeout=30)
+            self.rest, self.errors = self.process.communicate(timeout=300)
         self.code = self.process.returncode
         return time.monotonic() - began
 
     def connect(self):
         if not self.secure:
-            return http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
-        return http.client.HTTPSConnection("127.0.0.1", self.port, timeout=60, context=ssl._create_unverified_context())
+            return http.client.HTTPConnection("127.0.0.1", self.port, timeout=300)
+        return http.client.HTTPSConnection("127.0.0.1", self.port, timeout=300, context=ssl._create_unverified_context())
 
     def ask(self, method, path, body=None, **headers):
         connection = self.connect()
@@ -82,7 +82,7 @@ class Served:
 
     def wait_for_bake(self, waiting=0):
         """Until a bake runs and so many wait."""
-        end = time.monotonic() + 30
+        end = time.monotonic() + 300
         while time.monotonic() < end:
             status = self.status()
             if "bake" in status and status["waiting"] >= waiting:
@@ -91,7 +91,7 @@ class Served:
         raise AssertionError(status)
 
     def wait_for_no_bake(self):
-        end = time.monotonic() + 30
+        end = time.monotonic() + 300
         while time.monotonic() < end:
             if "bake" not in self.status():
                 return
@@ -99,7 +99,7 @@ class Served:
         raise AssertionError("a bake goes on")
 
     def socket(self):
-        raw = socket.create_connection(("127.0.0.1", self.port), timeout=60)
+        raw = socket.create_connection(("127.0.0.1", self.port), timeout=300)
         return ssl._create_unverified_context().wrap_socket(raw) if self.secure else raw
 
     def raw(self, *parts):

@@ -19,6 +19,7 @@
 #include "embedding/baked.h"
 #include "embedding/projection.h"
 #include "support/allocations.h"
+#include "support/sanitized.h"
 
 namespace mimicry {
 namespace {
@@ -180,6 +181,7 @@ TEST(SmoothProjector, IsSmootherThanSnapAtEveryResolution) {
   constexpr int kSteps = 2000;
   for (const std::string_view name : {"sphere", "torus"})
     for (const int resolution : {6, 9, 13}) {
+      if (test::kSanitized && resolution > 6) continue;  // the larger take minutes
       const Baked shape(std::string(name), make_shape(name, {.resolution = resolution}));
       const auto path = [&](int i) -> Vec3 {
         const double a = 2.0 * 3.141592653589793 * i / kSteps;

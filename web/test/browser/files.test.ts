@@ -308,7 +308,7 @@ describe('preparing', () => {
     await expect.poll(() => messages(page)).toEqual([]);
     await start();
     await stroke(page, kRing);
-    await expect.poll(() => messages(page), { timeout: 25000 }).toEqual([expect.stringContaining('is prepared')]);
+    await expect.poll(() => messages(page), { timeout: 240000 }).toEqual([expect.stringContaining('is prepared')]);
     await page.keyboard.press('t');
     await page.locator('input[value=mimicry]').check();
     await page.keyboard.press('Escape');

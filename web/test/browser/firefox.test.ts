@@ -81,7 +81,7 @@ describe('in Firefox the studio', () => {
     const before = await curves();
     await page.evaluate(() => window.studio.autosave.settled());
     await page.reload();
-    await page.waitForSelector('html[data-ready]', { timeout: 60000 });
+    await page.waitForSelector('html[data-ready]', { timeout: 240000 });
     await expect.poll(curves).toEqual(before);
     await stroke([[330, 250], [350, 260]]);
     await expect.poll(count).toBe(3);

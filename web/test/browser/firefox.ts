@@ -25,7 +25,7 @@ export class FirefoxLab {
       screen.stdout!.once('data', (number: Buffer) => done(`:${String(number).trim()}`));
     });
     const browser = await puppeteer.launch({
-      browser: 'firefox', executablePath: kFirefox, headless: false, timeout: 60000, env: { ...process.env, DISPLAY: display },
+      browser: 'firefox', executablePath: kFirefox, headless: false, timeout: 240000, env: { ...process.env, DISPLAY: display },
       extraPrefsFirefox: { 'webgl.force-enabled': true, 'dom.w3c_touch_events.enabled': 1, 'app.update.enabled': false },
     });
     return new FirefoxLab(screen, browser, await serve());
@@ -49,7 +49,7 @@ export class FirefoxLab {
     });
     await page.evaluateOnNewDocument(knowsTheHint);
     await page.goto(`${this.served.url}?antialias=off&motion=off&embeddings=off`);
-    await page.waitForSelector('html[data-ready]', { timeout: 60000 });
+    await page.waitForSelector('html[data-ready]', { timeout: 240000 });
     return { context, page, errors };
   }
 }

@@ -45,7 +45,7 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
     await page.setInputFiles('input[type=file]', { name: 'ring.obj', mimeType: '', buffer: Buffer.from(torusObj(10)) });
     await page.waitForFunction(() => window.studio.studio.state.now.model?.name === 'ring.obj');
     await page.evaluate(() => window.studio.bake());
-    await expect.poll(() => messages(page), { timeout: 25000 }).toContainEqual(expect.stringContaining('is prepared'));
+    await expect.poll(() => messages(page), { timeout: 240000 }).toContainEqual(expect.stringContaining('is prepared'));
     // The server sends a bake before it keeps it.
     await expect.poll(() => readdirSync(data, { recursive: true }).some((name) => String(name).endsWith('.mimicry'))).toBe(true);
     await page.evaluate(() => window.studio.studio.set({ technique: 'mimicry' }));
@@ -54,7 +54,7 @@ describe.skipIf(!existsSync(kNative))('the page from `mimicry serve`', () => {
     // Files that the page offers, a model baked in the page, and a reload with what is kept.
     expect((await downloaded(page, () => page.keyboard.press('Control+s'))).bytes.length).toBeGreaterThan(1000);
     await page.evaluate(() => { window.studio.openShape('sphere'); window.studio.bake(); });
-    await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding, null, { timeout: 60000 });
+    await page.waitForFunction(() => window.studio.studio.state.now.hasEmbedding, null, { timeout: 240000 });
     await page.reload();
     await page.waitForSelector('html[data-ready]');
     expect(errors).toEqual([]);

@@ -44,6 +44,7 @@ export class Lab {
   async open(options: BrowserContextOptions & { query?: string; newcomer?: boolean; prepare?: (page: Page) => Promise<void> } = {}): Promise<Opened> {
     const { query = '', newcomer = false, prepare, ...rest } = options;
     const context = await this.browser.newContext({ viewport: kWindow, deviceScaleFactor: 1, colorScheme: 'light', acceptDownloads: true, serviceWorkers: 'block', ...rest });
+    context.setDefaultTimeout(240000); // against hangs: a busy machine takes its time
     const page = await context.newPage();
     const errors: string[] = [];
     page.on('pageerror', (error) => errors.push(String(error)));
@@ -54,7 +55,7 @@ export class Lab {
     if (!newcomer) await page.addInitScript(knowsTheHint);
     if (prepare) await prepare(page);
     await page.goto(`${this.served.url}?antialias=off&motion=off${query || '&embeddings=off'}`);
-    await page.waitForSelector('html[data-ready]', { timeout: 20000 });
+    await page.waitForSelector('html[data-ready]', { timeout: 240000 });
     return { context, page, errors };
   }
 }
