@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -50,11 +49,9 @@ inline const std::vector<std::unique_ptr<Baked>>& shapes() {
   static const auto all = [] {
     std::vector<std::unique_ptr<Baked>> list;
     list.push_back(std::make_unique<Baked>("sphere", make_sphere(7)));
-    const auto [around, across, edge] =
-        test::kSanitized ? std::array{20, 10, 4} : std::array{30, 14, 7};
-    list.push_back(std::make_unique<Baked>("torus", make_torus(around, across)));
-    list.push_back(
-        std::make_unique<Baked>("cube", make_box(edge, edge, edge, Vec3::Constant(0.8))));
+    list.push_back(std::make_unique<Baked>("torus", make_torus(30, 14)));
+    const int n = test::kSanitized ? 4 : 7;
+    list.push_back(std::make_unique<Baked>("cube", make_box(n, n, n, Vec3::Constant(0.8))));
     list.push_back(std::make_unique<Baked>("grid", make_grid(14)));
     list.push_back(std::make_unique<Baked>("two-spheres", make_two_spheres(5)));
     list.push_back(std::make_unique<Baked>("thin", make_box(10, 10, 1, Vec3(0.5, 0.5, 0.0005))));

@@ -212,7 +212,8 @@ TEST(SmoothProjector, IsSmootherThanSnapAtEveryResolution) {
 // A motion straight off the surface leaves its point where it is: on thin parts values lean along
 // the surface by a third of the way, as the least-squares mesh alone has them.
 TEST(SmoothProjector, PointsOffTheSurfaceDoNotSlideAlongIt) {
-  for (const std::string_view name : {"hand", "trefoil"}) {
+  for (const std::string_view name : {"trefoil", "hand"}) {
+    if (test::kSanitized && name == "hand") continue;  // its bake takes a minute
     const Baked shape(std::string(name), make_shape(name, {.resolution = name == "hand" ? 2 : 10}));
     const std::vector<double> slides = bench::normal_slides(shape.projector, 0.005, 1000, 5);
     EXPECT_LT(slides[500], 0.1) << name << " seed 5";

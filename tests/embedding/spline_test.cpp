@@ -78,6 +78,7 @@ TEST(Spline, TurnsSmoothlyWithinFaces) {
 }
 
 TEST(Spline, TurnsAcrossEdgesVanishAsTheMeshGetsFiner) {
+  if (test::kSanitized) GTEST_SKIP() << "a measurement of large bakes; nothing else runs in it";
   for (const bool is_sphere : {true, false}) {
     const auto turns = [&](int n) {
       return bench::edge_turns(
