@@ -6,6 +6,7 @@
 #include <mimicry/mesh/surface.h>
 
 #include "geodesic/site.h"
+#include "geodesic/unfold.h"
 
 namespace mimicry {
 namespace {
@@ -26,11 +27,6 @@ Vec3 turned(const Vec3& v, const Vec3& from, const Vec3& to) {
   const double size = sum.squaredNorm();
   if (size < 1e-12) return in_plane(v, to);  // opposite: no least rotation
   return in_plane(v - 2.0 * v.dot(to) / size * sum, to);
-}
-
-// From a to b, counter-clockwise positive.
-double angle(const Vec2& a, const Vec2& b) {
-  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
 // A vector of space laid in the tangent plane with its length kept.
@@ -83,39 +79,13 @@ void DiscreteExponentialMap::reach(Index vertex, const Vec2& place, double key, 
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-// What the face of half-edge h, which leaves q, says when its other two vertices are settled: the
-// centre is unfolded from their distances; the direction divides theirs as the angle at the centre.
+// What the face of half-edge h, which leaves q, says when its other two vertices are settled.
 bool DiscreteExponentialMap::unfold(Index h, Vec2& place) const {
   const Index a = half_edges_.head(h);
   const Index b = half_edges_.tail(HalfEdges::previous(h));
   if (!is_settled(a) || !is_settled(b)) return false;
-  const Vec2& place_a = places_[static_cast<std::size_t>(a)];
-  const Vec2& place_b = places_[static_cast<std::size_t>(b)];
-  const double to_a = place_a.norm();
-  const double to_b = place_b.norm();
-  const Vec3 edge = mesh_.position(b) - mesh_.position(a);
-  const double e = edge.norm();
-  if (!(to_a > 0.0 && to_b > 0.0 && e > 0.0)) return false;
-  const Vec3 side = mesh_.position(half_edges_.tail(h)) - mesh_.position(a);
-  const double qx = side.dot(edge) / e;
-  const double qy = side.cross(edge).norm() / e;
-  const double sx = (to_a * to_a - to_b * to_b + e * e) / (2.0 * e);
-  const double square = to_a * to_a - sx * sx;
-  if (!(square > 0.0)) return false;
-  const double sy = std::sqrt(square);
-  const double crossed = sx + (qx - sx) * (sy / (sy + qy));
-  if (!(crossed >= -kRounding * e && crossed <= (1.0 + kRounding) * e)) return false;
-  const double angle_b = angle(Vec2(-sx, sy), Vec2(e - sx, sy));
-  const double angle_q = angle(Vec2(-sx, sy), Vec2(qx - sx, qy + sy));
-  const double between = angle(place_a, place_b);
-  // The centre lies beyond the edge as seen from the new vertex, unless two ways around it meet.
-  if (!(between < 0.0 && between > -2.0) || angle_b == 0.0) return false;
-  const double turn = between * std::clamp(angle_q / angle_b, 0.0, 1.0);
-  const double distance = std::hypot(qx - sx, qy + sy);
-  const Vec2 direction = place_a / to_a;
-  place = distance * Vec2(direction.x() * std::cos(turn) - direction.y() * std::sin(turn),
-                          direction.x() * std::sin(turn) + direction.y() * std::cos(turn));
-  return true;
+  return unfolded_place(places_[at(a)], places_[at(b)], mesh_.position(a), mesh_.position(b),
+                        mesh_.position(half_edges_.tail(h)), place);
 }
 
 // A shortest way is no longer than any along edges: where faces are slivers or the surface crosses

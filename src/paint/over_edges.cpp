@@ -8,7 +8,7 @@ namespace {
 // A texel beyond an edge passes few faces, unless they are slivers, where any is as good.
 constexpr int kMostSteps = 16;
 // What rounding leaves of a coordinate that is 0.
-constexpr double kRounding = 1e-12;
+constexpr double kNegative = 1e-12;
 
 SurfacePoint clamped(Index face, const Vec3& bary) {
   const Vec3 positive = bary.cwiseMax(0.0);
@@ -45,7 +45,7 @@ SurfacePoint over_edges(const Surface& surface, Index face, const Vec3& bary) {
   Vec3 b = bary;
   for (int step = 0; step < kMostSteps; ++step) {
     Eigen::Index lowest;
-    if (b.minCoeff(&lowest) >= -kRounding) break;
+    if (b.minCoeff(&lowest) >= -kNegative) break;
     const Index h = 3 * face + static_cast<Index>((lowest + 1) % 3);  // opposite that corner
     Vec3 next;
     if (!surface.half_edges().has_twin(h) || !unfold(surface, h, b, next)) break;

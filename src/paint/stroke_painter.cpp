@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <mimicry/base/error.h>
+#include <mimicry/paint/brush.h>
+
+#include "base/float_traps.h"
+#include "geodesic/site.h"
+#include "paint/footprint.h"
+#include "paint/near_map.h"
+#include "paint/surface_path.h"
+
+namespace mimicry {
+namespace {
+
+// Pieces longer than this many radii are cut: distances in a map are good near its centre.
+constexpr double kLongestPiece = 1.0;
+// How far a map's centre is moved into its face, as a part of the way to the middle and at most of
+// the brush's radius: at corners and on edges there are no directions of the other faces there.
+constexpr double kInward = 0.02;
+constexpr double kInwardOfRadius = 0.05;
+
+}  // namespace
+
+struct StrokePainter::State {
+  explicit State(const PaintAtlas& a) : atlas(a), map(a) {
+    const FloatTrapMask mask;  // of coordinates whose squares are no numbers
+    const TriangleMesh& mesh = a.surface().mesh();
+    double area = 0.0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      area += 0.5 * mesh.area_vector(f).norm();
+      for (int k = 0; k < 3; ++k)
+        all_edges += (mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k)).norm();
+    }
+    if (!std::isfinite(all_edges)) all_edges = 1e100;
+    mean_texel = std::sqrt(area / double(std::max<std::size_t>(a.used_texels(), 1)));
+  }
+
+  const PaintAtlas& atlas;
+  NearMap map;
+  SurfacePath path;
+  std::vector<Dab> dabs;
+  std::vector<double> dab_lengths;
+  PaintLayers* layers = nullptr;
+  Brush brush;
+  bool has_point = false;
+  SurfacePoint last;
+  double last_pressure = 1.0;
+  double to_next_dab = 0.0;  // along the curve
+  double all_edges = 0.0;    // the sum of their lengths: no way on the surface is longer
+  double mean_texel = 0.0;   // its length; what is much narrower need not be cut or placed finer
+
+  double radius_at(double pressure) const {
+    return brush.radius * (1.0 - brush.pressure_size * (1.0 - pressure));
+  }
+  double flow_at(double pressure) const {
+    return brush.flow * (1.0 - brush.pressure_flow * (1.0 - pressure));
+  }
+  double step_at(double pressure) const {
+    // Pressure may leave nothing of the brush; dabs then stay countable.
+    const double radius = std::max(radius_at(pressure), 0.01 * brush.radius);
+    return std::max(2.0 * brush.spacing * radius, 0.1 * mean_texel);
+  }
+
+  void check(const SurfacePoint& point, double pressure) const;
+  void set_centre(const SurfacePoint& point, double reach);
+  void paint_piece(double begin, double end, double pressure_begin, double pressure_end);
+  void paint_dabs(const Vec2& from, const Vec2& to, double begin, double end, double pressure_begin,
+                  double pressure_end);
+  void paint_capsule(const Capsule& capsule);
+  void paint_point(const SurfacePoint& point, double pressure);
+};
+
+void StrokePainter::State::check(const SurfacePoint& point, double pressure) const {
+  if (!layers) throw Error(ErrorKind::invalid_input, "brush: no stroke is open; begin one first");
+  check_surface_point(atlas.surface().mesh(), point, "point of the stroke");
+  if (std::isnan(pressure) || pressure < 0.0 || pressure > 1.0)
+    throw Error(ErrorKind::invalid_input, "brush: a pressure is not between 0 and 1; give 0 to 1");
+}
+
+void StrokePainter::State::set_centre(const SurfacePoint& point, double reach) {
+  const Vec3 middle = Vec3::Constant(1.0 / 3.0);
+  const TriangleMesh& mesh = atlas.surface().mesh();
+  const double way =
+      (mesh.position(SurfacePoint{point.face, middle}) - mesh.position(point)).norm();
+  const double most = kInwardOfRadius * brush.radius;
+  const double inward = kInward * way <= most ? kInward : most / way;
+  map.compute({point.face, point.bary + inward * (middle - point.bary)}, reach + inward * way);
+}
+
+// Dabs whose lengths are in `dab_lengths`, between the piece's ends.
+void StrokePainter::State::paint_dabs(const Vec2& from, const Vec2& to, double begin, double end,
+                                      double pressure_begin, double pressure_end) {
+  dabs.clear();
+  double largest = 0.0;
+  for (const double s : dab_lengths) {
+    const double t = end > begin ? (s - begin) / (end - begin) : 0.0;
+    const double pressure = pressure_begin + t * (pressure_end - pressure_begin);
+    const double alpha = dab_alpha(flow_at(pressure), brush.spacing);
+    const double radius = radius_at(pressure);
+    if (!(alpha > 0.0 && radius > 0.0)) continue;
+    dabs.push_back({from + t * (to - from), radius, static_cast<float>(alpha)});
+    largest = std::max(largest, radius);
+  }
+  if (dabs.empty()) return;
+  const Vec2 middle = 0.5 * (dabs.front().place + dabs.back().place);
+  const double half = (dabs.front().place - middle).norm();
+  for (const Index f : map.faces()) {
+    const double texel = atlas.texel_length(f);
+    const TexelPlaces places(atlas.frame(f), map.corners(f));
+    for_each_texel_within(atlas, f, places, middle, half + largest + 0.5 * texel,
+                          [&](int x, int y, const Vec2& place) {
+                            float rest = 1.0f;
+                            for (const Dab& dab : dabs) {
+                              const Falloff falloff(dab.radius, brush.hardness, texel);
+                              const double square = (place - dab.place).squaredNorm();
+                              if (square >= falloff.high * falloff.high) continue;
+                              rest *= 1.0f -
+                                      dab.alpha * static_cast<float>(falloff.at(std::sqrt(square)));
+                            }
+                            if (rest < 1.0f) layers->cover(x, y, 1.0f - rest);
+                          });
+  }
+}
+
+void StrokePainter::State::paint_capsule(const Capsule& c) {
+  const Vec2 middle = 0.5 * (c.from + c.to);
+  const Vec2 along = c.to - c.from;
+  const double square = along.squaredNorm();
+  const double widest = std::max(c.from_radius, c.to_radius);
+  if (!(widest > 0.0)) return;
+  for (const Index f : map.faces()) {
+    const double texel = atlas.texel_length(f);
+    const TexelPlaces places(atlas.frame(f), map.corners(f));
+    for_each_texel_within(
+        atlas, f, places, middle, 0.5 * std::sqrt(square) + widest + 0.5 * texel,
+        [&](int x, int y, const Vec2& place) {
+          const double t =
+              square > 0.0 ? std::clamp((place - c.from).dot(along) / square, 0.0, 1.0) : 0.0;
+          const Falloff falloff(c.from_radius + t * (c.to_radius - c.from_radius), brush.hardness,
+                                texel);
+          const double d = (place - c.from - t * along).squaredNorm();
+          if (d >= falloff.high * falloff.high) return;
+          const double flow = c.from_flow + t * (c.to_flow - c.from_flow);
+          layers->cover_at_least(x, y, static_cast<float>(flow * falloff.at(std::sqrt(d))));
+        });
+  }
+}
+
+void StrokePainter::State::paint_point(const SurfacePoint& point, double pressure) {
+  if (repeats_corner(atlas.surface().mesh().face(point.face))) return;
+  set_centre(point, radius_at(pressure));
+  Vec2 place = Vec2::Zero();
+  map.place(point, place);
+  if (brush.blend == BrushBlend::max) {
+    const double radius = radius_at(pressure), flow = flow_at(pressure);
+    return paint_capsule({place, place, radius, radius, flow, flow});
+  }
+  dab_lengths.assign(1, 0.0);
+  paint_dabs(place, place, 0.0, 0.0, pressure, pressure);
+}
+
+// The part of `path` between two lengths.
+void StrokePainter::State::paint_piece(double begin, double end, double pressure_begin,
+                                       double pressure_end) {
+  if (brush.blend == BrushBlend::build) {
+    dab_lengths.clear();
+    double s = begin + to_next_dab;
+    while (s <= end) {
+      dab_lengths.push_back(s);
+      s += step_at(pressure_begin + (s - begin) / (end - begin) * (pressure_end - pressure_begin));
+    }
+    to_next_dab = s - end;
+    if (dab_lengths.empty()) return;
+  }
+  const double half = 0.5 * (end - begin);
+  set_centre(path.point_at(begin + half),
+             std::max(radius_at(pressure_begin), radius_at(pressure_end)) + half);
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  map.place(path.point_at(begin), from);
+  map.place(path.point_at(end), to);
+  if (brush.blend == BrushBlend::build)
+    paint_dabs(from, to, begin, end, pressure_begin, pressure_end);
+  else
+    paint_capsule({from, to, radius_at(pressure_begin), radius_at(pressure_end),
+                   flow_at(pressure_begin), flow_at(pressure_end)});
+}
+
+StrokePainter::StrokePainter(const PaintAtlas& atlas) : state_(std::make_unique<State>(atlas)) {}
+StrokePainter::~StrokePainter() = default;
+StrokePainter::StrokePainter(StrokePainter&&) noexcept = default;
+StrokePainter& StrokePainter::operator=(StrokePainter&&) noexcept = default;
+
+void StrokePainter::begin(PaintLayers& layers, int layer, const Brush& brush) {
+  require_valid(brush);
+  if (layers.size() != state_->atlas.size())
+    throw Error(ErrorKind::invalid_input, "brush: the layers are " + std::to_string(layers.size()) +
+                                              " texels wide and the atlas " +
+                                              std::to_string(state_->atlas.size()) +
+                                              "; make both of one size");
+  layers.begin_stroke(layer, {brush.color, brush.opacity, brush.erase});
+  state_->layers = &layers;
+  state_->brush = brush;
+  // A larger one covers no more; infinity is no number to reckon with.
+  state_->brush.radius = std::min(brush.radius, 100.0 * state_->all_edges);
+  state_->has_point = false;
+}
+
+void StrokePainter::move_to(const SurfacePoint& point, double pressure) {
+  State& s = *state_;
+  s.check(point, pressure);
+  s.last = normalised(point);
+  s.last_pressure = pressure;
+  s.has_point = true;
+  s.to_next_dab = s.step_at(pressure);
+  s.paint_point(s.last, pressure);
+}
+
+void StrokePainter::line_to(std::span<const Crossing> crossings, const SurfacePoint& point,
+                            double pressure) {
+  State& s = *state_;
+  s.check(point, pressure);
+  if (!s.has_point) return move_to(point, pressure);
+  const SurfacePoint to = normalised(point);
+  s.path.set(s.atlas.surface(), s.last, crossings, to);
+  const double length = s.path.length();
+  const double from_pressure = s.last_pressure;
+  if (length > 0.0) {
+    const double smallest = std::max({std::min(s.radius_at(from_pressure), s.radius_at(pressure)),
+                                      0.1 * s.brush.radius, s.mean_texel});
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / (kLongestPiece * smallest))));
+    for (int i = 0; i < parts; ++i) {
+      const double t0 = double(i) / parts, t1 = double(i + 1) / parts;
+      s.paint_piece(t0 * length, t1 * length, from_pressure + t0 * (pressure - from_pressure),
+                    from_pressure + t1 * (pressure - from_pressure));
+    }
+  }
+  s.last = to;
+  s.last_pressure = pressure;
+}
+
+void StrokePainter::end() {
+  if (state_->layers) state_->layers->end_stroke();
+  state_->layers = nullptr;
+}
+
+std::size_t StrokePainter::memory_bytes() const {
+  return sizeof(State) + state_->map.memory_bytes();
+}
+
+void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
+                 const ProjectedCurve& curve, std::span<const double> pressures) {
+  if (!pressures.empty() && pressures.size() != curve.points.size())
+    throw Error(ErrorKind::invalid_input,
+                "brush: " + std::to_string(pressures.size()) + " pressures for " +
+                    std::to_string(curve.points.size()) + " points; give one for each");
+  painter.begin(layers, layer, brush);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const SurfacePoint& p = curve.points[i].surface;
+    const double pressure = pressures.empty() ? 1.0 : pressures[i];
+    const bool starts = i == 0 || curve.pieces[i - 1].kind == PieceKind::gap ||
+                        curve.pieces[i - 1].kind == PieceKind::chord;
+    if (starts)
+      painter.move_to(p, pressure);
+    else
+      painter.line_to(curve.piece_crossings(i - 1), p, pressure);
+  }
+  painter.end();
+}
+
+}  // namespace mimicry
