@@ -25,6 +25,7 @@ void add_import_embedding(CLI::App& app, int& status);
 void add_info(CLI::App& app, int& status);
 void add_keypoints(CLI::App& app, int& status);
 void add_measure(CLI::App& app, int& status);
+void add_paint(CLI::App& app, int& status);
 void add_participants(CLI::App& app, int& status);
 void add_project(CLI::App& app, int& status);
 void add_quality(CLI::App& app, int& status);

@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
   add_techniques(app, status);
   add_simulate(app, status);
   add_project(app, status);
+  add_paint(app, status);
   add_render(app, status);
   add_report(app, status);
   add_geodesic(app, status);

@@ -7,6 +7,10 @@ namespace {
 constexpr const char* kNeeds = "the option MIMICRY_RENDER (Embree, libpng)";
 }
 
+void add_paint(CLI::App& app, int&) {
+  add_missing_command(app, "paint", "Paint a texture along curves", kNeeds);
+}
+
 void add_render(CLI::App& app, int&) {
   add_missing_command(app, "render", "Make a picture of a mesh, strokes and curves", kNeeds);
 }

@@ -6,6 +6,9 @@
 
 namespace mimicry {
 
+/// At which faces are shown as edges where files hold normals.
+inline constexpr double kCrease_rad = 38.0 / 180.0 * 3.14159265358979323846;
+
 /// A mesh as it is shown: a vertex for each normal that its corners have there.
 struct CreasedMesh {
   TriangleMesh mesh;          ///< the same faces in the same order

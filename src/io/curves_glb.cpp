@@ -14,7 +14,6 @@ namespace {
 using Color = std::array<unsigned char, 3>;
 
 /// Faces that meet at more than this are shown with an edge, as in the studio.
-constexpr double kCrease_rad = 38.0 / 180.0 * 3.14159265358979323846;
 constexpr std::array<double, 3> kTargetColor = {0.6, 0.6, 0.62};
 
 // glTF colours are linear, ours sRGB.

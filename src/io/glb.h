@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <mimicry/mesh/triangle_mesh.h>
@@ -21,6 +22,7 @@ struct GlbPart {
       {};  ///< #V, v up as in MeshAttributes, or empty
   std::span<const std::array<float, 4>> vertex_colors = {};  ///< #V, linear, or empty
   const FaceLabels* materials = nullptr;  ///< a primitive for each run of faces of one material
+  std::string_view texture_png = {};      ///< base colour by `texcoords`, for all faces
 };
 
 /// A binary glTF 2.0 file with a node for each part that has faces or lines. Of objects far from

@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "io/creased_mesh.h"
 #include "io/glb.h"
 #include "io/mesh_writers.h"
 
@@ -63,6 +64,20 @@ bool lacks_some(const CornerValues<N>& values) {
   return std::find(values.corners.begin(), values.corners.end(), kNone) != values.corners.end();
 }
 
+// Of the vertices of `split`, which has the same faces: of corners that share one the first counts.
+std::vector<Vec3> corner_normals(const TriangleMesh& mesh, const TriangleMesh& split) {
+  const CreasedMesh creased = creased_mesh(mesh, kCrease_rad);
+  std::vector<Vec3> normals(at(split.vertex_count()), Vec3::Zero());
+  for (Index f = 0; f < split.face_count(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3& normal = normals[at(split.face(f)[k])];
+      if (normal.isZero(0.0)) normal = creased.normals[at(creased.mesh.face(f)[k])];
+    }
+  for (Vec3& normal : normals)
+    if (normal.isZero(0.0)) normal = Vec3::UnitZ();  // of no face: any, of length 1
+  return normals;
+}
+
 std::size_t runs(const FaceLabels& labels) {
   std::size_t count = labels.empty() ? 0 : 1;
   for (std::size_t f = 1; f < labels.of_face.size(); ++f)
@@ -72,7 +87,8 @@ std::size_t runs(const FaceLabels& labels) {
 
 }  // namespace
 
-std::string write_glb(const TriangleMesh& mesh, const WriteNote& note) {
+std::string write_glb(const TriangleMesh& mesh, std::string_view texture_png,
+                      const WriteNote& note) {
   GlbPart part;
   part.mesh = &mesh;
   if (!mesh.attributes() || mesh.face_count() == 0) return write_glb_scene({&part, 1});
@@ -90,8 +106,15 @@ std::string write_glb(const TriangleMesh& mesh, const WriteNote& note) {
   part.texcoords = texcoords;
   part.vertex_colors = colors;
 
+  std::vector<Vec3> normals;
+  if (!texture_png.empty()) {
+    part.texture_png = texture_png;
+    part.normals = normals = corner_normals(mesh, by_vertex);
+  }
   if (!attributes.groups.empty()) note("GLB has no groups of faces; their names are left out");
-  if (runs(attributes.materials) > kMostRuns)
+  if (!texture_png.empty() && !attributes.materials.empty())
+    note("the GLB has one material, with the texture; names of materials are left out");
+  else if (runs(attributes.materials) > kMostRuns)
     note("the material changes from face to face; materials are left out");
   else if (!attributes.materials.empty())
     part.materials = &attributes.materials;

@@ -30,6 +30,9 @@ struct Scene {
   OrderedJson meshes = OrderedJson::array();
   OrderedJson nodes = OrderedJson::array();
   OrderedJson materials = OrderedJson::array();
+  OrderedJson textures = OrderedJson::array();
+  OrderedJson images = OrderedJson::array();
+  OrderedJson samplers = OrderedJson::array();
 
   // The bytes from `start` to the end become a view with an accessor; its number is returned.
   std::size_t close_view(std::size_t start, int target, int component, Index count,
@@ -125,6 +128,29 @@ struct Scene {
     return {{"attributes", attributes}, {"mode", kLineStripMode}};
   }
 
+  // A rough material of this base colour.
+  void add_material(OrderedJson color) {
+    color["metallicFactor"] = 0.0;
+    color["roughnessFactor"] = 0.8;
+    materials.push_back({{"pbrMetallicRoughness", color}});
+  }
+
+  // No mip levels: what lies side by side in the texture need not on the surface.
+  void add_texture(std::string_view png) {
+    constexpr int kLinear = 9729, kClampToEdge = 33071;
+    const std::size_t start = binary.size();
+    binary += png;
+    views.push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", png.size()}});
+    binary.resize((binary.size() + 3) / 4 * 4, '\0');
+    images.push_back({{"bufferView", views.size() - 1}, {"mimeType", "image/png"}});
+    samplers = OrderedJson::array({{{"magFilter", kLinear},
+                                    {"minFilter", kLinear},
+                                    {"wrapS", kClampToEdge},
+                                    {"wrapT", kClampToEdge}}});
+    textures.push_back({{"sampler", 0}, {"source", images.size() - 1}});
+    add_material({{"baseColorTexture", {{"index", textures.size() - 1}}}});
+  }
+
   void add(const GlbPart& part) {
     OrderedJson primitives = OrderedJson::array();
     if (has_faces(part)) add_triangles(part, primitives);
@@ -133,12 +159,12 @@ struct Scene {
     if (primitives.empty()) return;
     if (part.color) {
       const auto& [r, g, b] = *part.color;
-      materials.push_back({{"pbrMetallicRoughness",
-                            {{"baseColorFactor", {r, g, b, 1.0}},
-                             {"metallicFactor", 0.0},
-                             {"roughnessFactor", 0.8}}}});
-      for (OrderedJson& primitive : primitives) primitive["material"] = materials.size() - 1;
+      add_material({{"baseColorFactor", {r, g, b, 1.0}}});
+    } else if (!part.texture_png.empty()) {
+      add_texture(part.texture_png);
     }
+    if (part.color || !part.texture_png.empty())
+      for (OrderedJson& primitive : primitives) primitive["material"] = materials.size() - 1;
     OrderedJson mesh = {{"primitives", primitives}};
     OrderedJson node = {{"mesh", meshes.size()}};
     if (origin != Vec3::Zero()) node["translation"] = {origin.x(), origin.y(), origin.z()};
@@ -157,6 +183,11 @@ struct Scene {
     root["nodes"] = nodes;
     root["meshes"] = meshes;
     if (!materials.empty()) root["materials"] = materials;
+    if (!textures.empty()) {
+      root["textures"] = textures;
+      root["samplers"] = samplers;
+      root["images"] = images;
+    }
     root["accessors"] = accessors;
     root["bufferViews"] = views;
     root["buffers"] = OrderedJson::array({{{"byteLength", binary.size()}}});

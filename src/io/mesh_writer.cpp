@@ -43,9 +43,12 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
   const WriteNote note = [&](const std::string& sentence) {
     if (options.note) options.note(sentence);
   };
+  if (!options.texture_png.empty() && (!mesh.attributes() || mesh.attributes()->texcoords.empty()))
+    throw Error(ErrorKind::invalid_input,
+                "mesh: a texture needs texture coordinates, and the mesh has none; give it some");
   switch (format) {
     case MeshFormat::obj:
-      return write_obj(mesh, note);
+      return write_obj(mesh, options.material_file, note);
     case MeshFormat::ply:
       return write_ply(mesh, options.text, note);
     case MeshFormat::stl:
@@ -54,7 +57,7 @@ std::string write_mesh(const TriangleMesh& mesh, MeshFormat format,
     case MeshFormat::off:
       return write_off(mesh, note);
     case MeshFormat::glb:
-      return write_glb(mesh, note);
+      return write_glb(mesh, options.texture_png, note);
     case MeshFormat::gltf:
       break;
   }

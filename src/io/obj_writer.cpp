@@ -6,6 +6,8 @@
 namespace mimicry {
 namespace {
 
+constexpr const char* kPaintMaterial = "paint";
+
 void append_number(std::string& out, double x) {
   out += ' ';
   append_double(out, x);
@@ -70,8 +72,15 @@ void append_corners(std::string& out, const Face& face, const Index* texcoords) 
 
 }  // namespace
 
-std::string write_obj(const TriangleMesh& mesh, const WriteNote& note) {
+std::string write_mtl(std::string_view texture_file) {
+  std::string out = "newmtl " + std::string(kPaintMaterial) + "\nKd 1 1 1\nmap_Kd ";
+  return out + label_text(std::string(texture_file)) + '\n';
+}
+
+std::string write_obj(const TriangleMesh& mesh, std::string_view material_file,
+                      const WriteNote& note) {
   std::string out;
+  if (!material_file.empty()) out += "mtllib " + label_text(std::string(material_file)) + '\n';
   append_vertices(out, mesh, note);
   const MeshAttributes none;
   const MeshAttributes& attributes = mesh.attributes() ? *mesh.attributes() : none;
@@ -80,12 +89,17 @@ std::string write_obj(const TriangleMesh& mesh, const WriteNote& note) {
     for (const float x : uv) append_number(out, static_cast<double>(x));
     out += '\n';
   }
-  if (!attributes.materials.empty())
+  const FaceLabels one_material =
+      material_file.empty() ? FaceLabels{}
+                            : FaceLabels{{kPaintMaterial}, std::vector<Index>(mesh.faces().size())};
+  if (!material_file.empty() && !attributes.materials.empty())
+    note("the OBJ has one material, with the texture; names of materials are left out");
+  else if (!attributes.materials.empty())
     note(
         "the OBJ names its materials; what they look like is not known, so that no .mtl file "
         "stands beside it");
   LabelLines objects("o", attributes.objects), groups("g", attributes.groups),
-      materials("usemtl", attributes.materials);
+      materials("usemtl", material_file.empty() ? attributes.materials : one_material);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     objects.append(out, f);
     groups.append(out, f);

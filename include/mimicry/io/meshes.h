@@ -88,9 +88,17 @@ TriangleMesh read_mesh_files(std::span<const NamedBytes> files, std::size_t mesh
 
 struct MeshWriteOptions {
   bool text = false;  ///< PLY and STL as text instead of binary; the other formats have one form
+  /// GLB: bytes of a PNG, the base colour (sRGB) at the mesh's texture coordinates, which it must
+  /// have; one material in place of the mesh's own. Empty: none. Other formats hold no image.
+  std::string_view texture_png = {};
+  /// OBJ: the name of a file beside it, as `write_mtl` makes, whose material all faces have.
+  std::string_view material_file = {};
   /// Is told, a sentence each, which attributes the format does not hold; may be empty.
   std::function<void(const std::string& sentence)> note = {};
 };
+
+/// The .mtl file of an OBJ with one texture: `texture_file` is the image's name beside it.
+std::string write_mtl(std::string_view texture_file);
 
 /// The bytes of a file that holds the mesh's triangles; source polygons are not put together
 /// again. OBJ, OFF and PLY keep every bit of the coordinates; STL and GLB hold single precision by
