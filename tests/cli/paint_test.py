@@ -1,0 +1,183 @@
+"""mimicry paint: paint_test.py PROGRAM."""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM = sys.argv[1]
+
+
+def run(*args, expect=0):
+    done = subprocess.run([PROGRAM, *args], capture_output=True, text=True, timeout=1800)
+    assert done.returncode == expect, (args, done.returncode, done.stdout, done.stderr)
+    return done
+
+
+def read_png(data):
+    """Width and rows of RGB bytes of an 8-bit PNG."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert (depth, color) == (8, 2)
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    raw, rows = zlib.decompress(packed), []
+    before = bytearray(3 * width)
+    for y in range(height):
+        start = y * (3 * width + 1)
+        kind, line = raw[start], bytearray(raw[start + 1:start + 1 + 3 * width])
+        for i in range(3 * width):
+            a, b = (line[i - 3] if i >= 3 else 0), before[i]
+            c = before[i - 3] if i >= 3 else 0
+            p = a + b - c
+            paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            line[i] = (line[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
+        rows.append(bytes(line))
+        before = line
+    return width, rows
+
+
+class Paint(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.mesh = cls.path("torus.ply")
+        run("shapes", "torus", "--resolution", "12", "--out", cls.mesh)
+        run("simulate", cls.mesh, "--shape", "torus", "--rate", "30", "-o", cls.path("s.json"))
+        run("project", cls.mesh, cls.path("s.json"), "-t", "snap", "--formats", "json", "-o",
+            cls.path("out"))
+        cls.curves = cls.path("out", "curves.json")
+
+    @classmethod
+    def path(cls, *names):
+        return os.path.join(cls.folder.name, *names)
+
+    def paint(self, *args, expect=0):
+        for name, value in (("--size", "256"), ("--radius", "0.02")):
+            if name not in args:
+                args += (name, value)
+        return run("paint", self.mesh, self.curves, *args, expect=expect)
+
+    def test_glb_holds_the_texture_and_its_coordinates(self):
+        summary = json.loads(self.paint("-o", self.path("a.glb"), "--png", self.path("a.png"),
+                                        "--color", "#0000ff", "--hardness", "1", "--json").stdout)
+        self.assertGreater(summary["texels_painted"], 1000)
+        with open(self.path("a.glb"), "rb") as file:
+            data = file.read()
+        size = struct.unpack("<I", data[12:16])[0]
+        gltf, binary = json.loads(data[20:20 + size]), data[28 + size:]
+        view = gltf["bufferViews"][gltf["images"][0]["bufferView"]]
+        with open(self.path("a.png"), "rb") as file:
+            png = file.read()
+        self.assertEqual(binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]], png)
+        primitive = gltf["meshes"][0]["primitives"][0]
+        material = gltf["materials"][primitive["material"]]["pbrMetallicRoughness"]
+        self.assertEqual(material["baseColorTexture"]["index"], 0)
+        self.assertIn("NORMAL", primitive["attributes"])
+        uv = gltf["accessors"][primitive["attributes"]["TEXCOORD_0"]]
+        self.assertEqual(uv["count"], 3 * summary["faces"])
+
+        # What is blue in the picture lies where the curves run: at a curve's points, by the
+        # coordinates of their faces.
+        width, rows = read_png(png)
+        start = gltf["bufferViews"][uv["bufferView"]]["byteOffset"]
+        places = struct.unpack(f"<{2 * uv['count']}f", binary[start:start + 8 * uv["count"]])
+        start = gltf["bufferViews"][gltf["accessors"][primitive["indices"]]["bufferView"]]["byteOffset"]
+        corners = struct.unpack(f"<{uv['count']}I", binary[start:start + 4 * uv["count"]])
+        with open(self.curves, encoding="utf-8") as file:
+            curve = json.load(file)["curves"][0]
+        seen = 0
+        for point in curve["points"]:
+            face, bary = point["face"], point["bary"]
+            u, v = (sum(b * places[2 * corners[3 * face + k] + i] for k, b in enumerate(bary))
+                    for i in (0, 1))
+            x, y = round(u * width - 0.5), round(v * width - 0.5)
+            self.assertEqual(tuple(rows[y][3 * x:3 * x + 3]), (0, 0, 255), point)
+            seen += 1
+        self.assertGreater(seen, 20)
+        self.assertIn(bytes((255, 255, 255)), [row[:3] for row in rows])
+
+    def test_obj_names_its_material_and_image(self):
+        self.paint("-o", self.path("b.obj"))
+        with open(self.path("b.obj"), encoding="utf-8") as file:
+            lines = file.read().split("\n")
+        self.assertEqual(lines[0], "mtllib b.mtl")
+        self.assertIn("usemtl paint", lines)
+        with open(self.path("b.mtl"), encoding="utf-8") as file:
+            self.assertIn("map_Kd b.png", file.read())
+        with open(self.path("b.png"), "rb") as file:
+            self.assertEqual(read_png(file.read())[0], 256)
+        # The file's own coordinates can be painted on again.
+        again = run("paint", self.path("b.obj"), self.curves, "--atlas", "mesh", "--size", "256",
+                    "--radius", "0.02", "-o", self.path("c.glb"), "--json")
+        self.assertGreater(json.loads(again.stdout)["texels_painted"], 1000)
+
+    def test_ply_has_a_colour_a_vertex(self):
+        self.paint("-o", self.path("d.ply"), "--color", "#ff0000")
+        info = json.loads(run("info", self.path("d.ply"), "--json").stdout)
+        self.assertGreater(info["attributes"]["colors"], 1)
+        # Colours of a mesh are what paint is laid on.
+        out = run("paint", self.path("d.ply"), self.curves, "--opacity", "0", "--size", "256",
+                  "--radius", "0.02", "--png", self.path("e.png"), "--json")
+        self.assertEqual(json.loads(out.stdout)["texels_painted"], 0)
+        with open(self.path("e.png"), "rb") as file:
+            rows = read_png(file.read())[1]
+        self.assertTrue(any(row[3 * x] > 200 and row[3 * x + 1] < 60 for row in rows
+                            for x in range(256)))
+
+    def test_bad_input_is_refused_and_leaves_nothing(self):
+        out = self.path("bad.glb")
+        for arguments, why in (
+                (["--radius", "0"], "radius is not above 0"),
+                (["--radius", "nan"], "radius is not above 0"),
+                (["--hardness", "2"], "hardness is out of range; give 0 to 1"),
+                (["--size", "0"], "give 256 to 8192"),
+                (["--size", "1000000"], "give 256 to 8192"),
+                (["--color", "red"], "write #rrggbb"),
+                (["--atlas", "mesh"], "take the atlas 'cells'")):
+            done = self.paint("-o", out, *arguments, expect=3)
+            self.assertIn(why, done.stderr)
+        done = run("paint", "shape:cube", self.curves, "-o", out, expect=3)
+        self.assertIn("was drawn on a mesh of", done.stderr)
+        with open(self.curves, encoding="utf-8") as file:
+            moved = json.load(file)
+        moved["curves"][0]["points"][3]["position"][0] += 0.5
+        with open(self.path("moved.json"), "w", encoding="utf-8") as file:
+            json.dump(moved, file)
+        done = run("paint", self.mesh, self.path("moved.json"), "-o", out, expect=3)
+        self.assertIn("curve 0: point 3 lies elsewhere", done.stderr)
+        self.paint("-o", self.path("bad.stl"), expect=2)
+        self.paint(expect=2)
+        self.assertFalse(any(name.startswith("bad") for name in os.listdir(self.folder.name)))
+
+    def test_same_input_same_bits_and_any_radius(self):
+        for name in ("f.glb", "g.glb"):
+            self.paint("-o", self.path(name), "--radius", "1e9", "--blend", "max")
+        with open(self.path("f.glb"), "rb") as one, open(self.path("g.glb"), "rb") as two:
+            self.assertEqual(one.read(), two.read())
+
+    def test_too_few_texels_are_told(self):
+        run("shapes", "torus", "--resolution", "60", "--out", self.path("fine.ply"))
+        with open(self.curves, encoding="utf-8") as file:
+            curves = json.load(file)
+        curves["curves"], curves["target"] = [], {"name": "fine", "vertices": 10800, "faces": 21600}
+        with open(self.path("none.json"), "w", encoding="utf-8") as file:
+            json.dump(curves, file)
+        done = run("paint", self.path("fine.ply"), self.path("none.json"), "--size", "256", "--png",
+                   self.path("h.png"))
+        self.assertIn("give --size 512 for more", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
