@@ -175,25 +175,38 @@ void PaintLayers::cover_at_least(int x, int y, float alpha) {
   refresh(x, y);
 }
 
+void PaintLayers::use_channels(int count) {
+  if (stroke_channels_ == count) return;
+  if (!stroke_tiles_.empty())
+    fail("a stroke has one ink, or images laid over each other or by nearness; begin another");
+  stroke_channels_ = count;
+}
+
 void PaintLayers::lay_over(int x, int y, const std::array<float, 4>& color) {
-  if (stroke_channels_ == 1) {
-    if (!stroke_tiles_.empty()) fail("a stroke has colours of its own, or one ink; begin another");
-    stroke_channels_ = 4;
-  }
+  use_channels(4);
   float* texel = stroke_texel(x, y);
   const float rest = 1.0f - color[3];
   for (std::size_t k = 0; k < 4; ++k) texel[k] = color[k] + rest * texel[k];
   refresh(x, y);
 }
 
+void PaintLayers::lay_nearest(int x, int y, const std::array<float, 4>& color, float nearness) {
+  use_channels(5);
+  float* texel = stroke_texel(x, y);
+  if (nearness <= texel[4]) return;
+  std::copy(color.begin(), color.end(), texel);
+  texel[4] = nearness;
+  refresh(x, y);
+}
+
 float PaintLayers::coverage(int x, int y) const {
   const StrokeTile& tile = stroke_[tile_of(x, y)];
-  return tile.empty() ? 0.0f : tile[(texel_of(x, y) + 1) * at(stroke_channels_) - 1];
+  return tile.empty() ? 0.0f : tile[texel_of(x, y) * at(stroke_channels_) + coverage_channel()];
 }
 
 // What the layer has at a texel when the stroke is on it.
 Rgba8 PaintLayers::with_stroke(const Rgba8& below, const float* stroke) const {
-  const float a = stroke[stroke_channels_ - 1];
+  const float a = stroke[coverage_channel()];
   if (!(a > 0.0f)) return below;
   const float add = static_cast<float>(ink_.opacity) * a;
   const float under = static_cast<float>(below[3]) / 255.0f * (1.0f - add);

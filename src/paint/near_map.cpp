@@ -79,11 +79,11 @@ void NearMap::lay_centre(const SurfacePoint& centre) {
     const Vec3 edge = mesh_.corner(centre.face, 1) - mesh_.corner(centre.face, 0);
     normal = edge.squaredNorm() > 0.0 ? edge.unitOrthogonal() : Vec3::UnitZ();
   }
-  const Vec3 x_axis = normal.unitOrthogonal();
-  const Vec3 y_axis = normal.cross(x_axis);
+  x_axis_ = normal.unitOrthogonal();
+  y_axis_ = normal.cross(x_axis_);
   for (const Index v : mesh_.face(centre.face)) {
     const Vec3 to = mesh_.position(v) - origin_;
-    reach(v, Vec2(to.dot(x_axis), to.dot(y_axis)), to.norm(), to.norm());
+    reach(v, in_plane(to), to.norm(), to.norm());
     settled_[at(v)] = 1;
   }
 }

@@ -35,6 +35,9 @@ class NearMap {
   /// Where a point lies; false where its face is not among them.
   bool place(const SurfacePoint& p, Vec2& result) const;
 
+  /// A direction of space in the plane: its part there.
+  Vec2 in_plane(const Vec3& v) const { return {v.dot(x_axis_), v.dot(y_axis_)}; }
+
   std::size_t memory_bytes() const;
 
  private:
@@ -58,6 +61,7 @@ class NearMap {
   const HalfEdges& half_edges_;
   double radius_ = 0.0;
   Vec3 origin_ = Vec3::Zero();
+  Vec3 x_axis_ = Vec3::UnitX(), y_axis_ = Vec3::UnitY();
   std::vector<Index> faces_, waiting_;
   std::vector<Entry> heap_;
   std::uint32_t stamp_ = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <mimicry/base/error.h>
+#include <mimicry/base/random.h>
 #include <mimicry/paint/brush.h>
 
 #include "base/float_traps.h"
@@ -45,7 +46,15 @@ struct StrokePainter::State {
   std::vector<double> dab_lengths;
   PaintLayers* layers = nullptr;
   Brush brush;
+  Stamp stamp;
+  Ribbon ribbon;
+  const StampImage* image = nullptr;
+  enum class Kind { round, stamp, ribbon } kind = Kind::round;
+  Random random{1};
   bool has_point = false;
+  bool has_piece = false;  // since the last part started
+  double travelled = 0.0;  // length of the part so far
+  SurfacePoint behind;     // of a ribbon: a point of the last piece near its end
   SurfacePoint last;
   double last_pressure = 1.0;
   double to_next_dab = 0.0;  // along the curve
@@ -59,6 +68,7 @@ struct StrokePainter::State {
     return brush.flow * (1.0 - brush.pressure_flow * (1.0 - pressure));
   }
   double step_at(double pressure) const {
+    if (kind == Kind::stamp) return std::max(stamp.spacing * stamp.size, 0.1 * mean_texel);
     // Pressure may leave nothing of the brush; dabs then stay countable.
     const double radius = std::max(radius_at(pressure), 0.01 * brush.radius);
     return std::max(2.0 * brush.spacing * radius, 0.1 * mean_texel);
@@ -71,6 +81,11 @@ struct StrokePainter::State {
                   double pressure_end);
   void paint_capsule(const Capsule& capsule);
   void paint_point(const SurfacePoint& point, double pressure);
+  void open(PaintLayers& to, Kind what, double radius);
+  void place_dabs(double begin, double end, double pressure_begin, double pressure_end);
+  void paint_stamp(const SurfacePoint& point, double along_path);
+  void paint_ribbon(double begin, double end);
+  void finish_part();
 };
 
 void StrokePainter::State::check(const SurfacePoint& point, double pressure) const {
@@ -162,18 +177,121 @@ void StrokePainter::State::paint_point(const SurfacePoint& point, double pressur
   paint_dabs(place, place, 0.0, 0.0, pressure, pressure);
 }
 
+// Where dabs lie between two lengths of `path`.
+void StrokePainter::State::place_dabs(double begin, double end, double pressure_begin,
+                                      double pressure_end) {
+  dab_lengths.clear();
+  double s = begin + to_next_dab;
+  while (s <= end) {
+    dab_lengths.push_back(s);
+    s += step_at(pressure_begin + (s - begin) / (end - begin) * (pressure_end - pressure_begin));
+  }
+  to_next_dab = s - end;
+}
+
+// along_path: the point's length on `path`; negative where there is none yet.
+void StrokePainter::State::paint_stamp(const SurfacePoint& point, double along_path) {
+  const double size = stamp.size * (1.0 + stamp.size_jitter * (2.0 * random.uniform() - 1.0));
+  const double turn =
+      stamp.rotation_rad + stamp.rotation_jitter_rad * (2.0 * random.uniform() - 1.0);
+  const double longer = std::max(image->width(), image->height());
+  const Vec2 extent(size * image->width() / longer, size * image->height() / longer);
+  const double reach = 0.5 * extent.norm();
+  set_centre(point, reach);
+  Vec2 middle = Vec2::Zero(), from = Vec2::Zero(), to = Vec2::Zero();
+  map.place(point, middle);
+  Vec2 right = Vec2::Zero();
+  if (stamp.follow && along_path >= 0.0) {
+    // Over a little of the way to both sides: the faces' own directions differ.
+    const double aside = 0.25 * size;
+    if (map.place(path.point_at(std::max(along_path - aside, 0.0)), from) &&
+        map.place(path.point_at(std::min(along_path + aside, path.length())), to))
+      right = to - from;
+  } else {
+    const Vec2 up = map.in_plane(stamp.up);
+    right = Vec2(up.y(), -up.x());
+  }
+  if (right.squaredNorm() > 0.0)
+    right.normalize();
+  else
+    right = Vec2::UnitX();
+  right = Vec2(std::cos(turn) * right.x() - std::sin(turn) * right.y(),
+               std::sin(turn) * right.x() + std::cos(turn) * right.y());
+  const Vec2 up(-right.y(), right.x());
+  for (const Index f : map.faces()) {
+    const double texel = atlas.texel_length(f);
+    const double footprint = texel / size * longer;
+    const TexelPlaces places(atlas.frame(f), map.corners(f));
+    for_each_texel_within(
+        atlas, f, places, middle, reach + texel, [&](int x, int y, const Vec2& place) {
+          const Vec2 from_middle = place - middle;
+          const auto color = image->sample(0.5 + from_middle.dot(right) / extent.x(),
+                                           0.5 - from_middle.dot(up) / extent.y(), footprint);
+          if (color[3] > 0.0f) layers->lay_over(x, y, color);
+        });
+  }
+}
+
+// The image along the part of `path` between two lengths: u by the nearest point of the curve, v by
+// the distance from it. At a bend the outer side is a fan around its point.
+void StrokePainter::State::paint_ribbon(double begin, double end) {
+  const double half = 0.5 * ribbon.width;
+  const double middle_length = 0.5 * (begin + end);
+  set_centre(path.point_at(middle_length), half + 0.5 * (end - begin));
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero(), back = Vec2::Zero();
+  map.place(path.point_at(begin), from);
+  map.place(path.point_at(end), to);
+  const Vec2 along = to - from;
+  const double square = along.squaredNorm();
+  // A place of the last piece gives the side of the joint that it has covered.
+  const bool joins = has_piece && map.place(behind, back);
+  const Vec2 last_way = from - back;
+  const double period = ribbon.width * image->width() / image->height();
+  if (square > 0.0) {
+    const Vec2 left = Vec2(-along.y(), along.x()) / std::sqrt(square);
+    const Vec2 middle = 0.5 * (from + to);
+    for (const Index f : map.faces()) {
+      const double texel = atlas.texel_length(f);
+      const TexelPlaces places(atlas.frame(f), map.corners(f));
+      for_each_texel_within(
+          atlas, f, places, middle, 0.5 * std::sqrt(square) + half + 0.5 * texel,
+          [&](int x, int y, const Vec2& place) {
+            const Vec2 way = place - from;
+            double t = way.dot(along) / square;
+            if (t > 1.0 || (t < 0.0 && !(joins && way.dot(last_way) >= 0.0))) return;
+            t = std::max(t, 0.0);
+            const double distance = (way - t * along).norm();
+            if (distance >= half + 0.5 * texel) return;
+            const double side = way.dot(left) < 0.0 ? -distance : distance;
+            const auto color =
+                image->sample((travelled + t * (end - begin)) / period, 0.5 - side / ribbon.width,
+                              texel / ribbon.width * image->height(), true);
+            layers->lay_nearest(x, y, color, static_cast<float>(1.0 - distance / (half + texel)));
+          });
+    }
+  }
+  has_piece = true;
+  travelled += end - begin;
+  behind = path.point_at(std::max(begin, end - 0.25 * ribbon.width));
+}
+
+// A stamp that waited for the curve's way.
+void StrokePainter::State::finish_part() {
+  if (kind == Kind::stamp && has_point && !has_piece) paint_stamp(last, -1.0);
+  has_point = false;
+}
+
 // The part of `path` between two lengths.
 void StrokePainter::State::paint_piece(double begin, double end, double pressure_begin,
                                        double pressure_end) {
-  if (brush.blend == BrushBlend::build) {
-    dab_lengths.clear();
-    double s = begin + to_next_dab;
-    while (s <= end) {
-      dab_lengths.push_back(s);
-      s += step_at(pressure_begin + (s - begin) / (end - begin) * (pressure_end - pressure_begin));
-    }
-    to_next_dab = s - end;
+  if (kind == Kind::ribbon) return paint_ribbon(begin, end);
+  if (kind == Kind::stamp || brush.blend == BrushBlend::build) {
+    place_dabs(begin, end, pressure_begin, pressure_end);
     if (dab_lengths.empty()) return;
+  }
+  if (kind == Kind::stamp) {
+    for (const double s : dab_lengths) paint_stamp(path.point_at(s), s);
+    return;
   }
   const double half = 0.5 * (end - begin);
   set_centre(path.point_at(begin + half),
@@ -193,29 +311,68 @@ StrokePainter::~StrokePainter() = default;
 StrokePainter::StrokePainter(StrokePainter&&) noexcept = default;
 StrokePainter& StrokePainter::operator=(StrokePainter&&) noexcept = default;
 
-void StrokePainter::begin(PaintLayers& layers, int layer, const Brush& brush) {
-  require_valid(brush);
-  if (layers.size() != state_->atlas.size())
+void StrokePainter::State::open(PaintLayers& to, Kind what, double radius) {
+  layers = &to;
+  kind = what;
+  // A larger one covers no more; infinity is no number to reckon with.
+  brush.radius = std::min(radius, 100.0 * all_edges);
+  has_point = has_piece = false;
+}
+
+namespace {
+
+void require_size(const PaintLayers& layers, const PaintAtlas& atlas) {
+  if (layers.size() != atlas.size())
     throw Error(ErrorKind::invalid_input, "brush: the layers are " + std::to_string(layers.size()) +
                                               " texels wide and the atlas " +
-                                              std::to_string(state_->atlas.size()) +
+                                              std::to_string(atlas.size()) +
                                               "; make both of one size");
+}
+
+}  // namespace
+
+void StrokePainter::begin(PaintLayers& layers, int layer, const Brush& brush) {
+  require_valid(brush);
+  require_size(layers, state_->atlas);
   layers.begin_stroke(layer, {brush.color, brush.opacity, brush.erase});
-  state_->layers = &layers;
   state_->brush = brush;
-  // A larger one covers no more; infinity is no number to reckon with.
-  state_->brush.radius = std::min(brush.radius, 100.0 * state_->all_edges);
-  state_->has_point = false;
+  state_->open(layers, State::Kind::round, brush.radius);
+}
+
+void StrokePainter::begin(PaintLayers& layers, int layer, const Stamp& stamp,
+                          const StampImage& image) {
+  require_valid(stamp);
+  require_size(layers, state_->atlas);
+  layers.begin_stroke(layer, {{}, stamp.opacity, false});
+  state_->brush = {};
+  state_->stamp = stamp;
+  state_->image = &image;
+  state_->random = Random(stamp.seed);
+  state_->open(layers, State::Kind::stamp, stamp.size);
+}
+
+void StrokePainter::begin(PaintLayers& layers, int layer, const Ribbon& ribbon,
+                          const StampImage& image) {
+  require_valid(ribbon);
+  require_size(layers, state_->atlas);
+  layers.begin_stroke(layer, {{}, ribbon.opacity, false});
+  state_->brush = {};
+  state_->ribbon = ribbon;
+  state_->image = &image;
+  state_->open(layers, State::Kind::ribbon, 0.5 * ribbon.width);
 }
 
 void StrokePainter::move_to(const SurfacePoint& point, double pressure) {
   State& s = *state_;
   s.check(point, pressure);
+  s.finish_part();
   s.last = normalised(point);
   s.last_pressure = pressure;
   s.has_point = true;
-  s.to_next_dab = s.step_at(pressure);
-  s.paint_point(s.last, pressure);
+  s.has_piece = false;
+  s.travelled = 0.0;
+  s.to_next_dab = s.kind == State::Kind::stamp ? 0.0 : s.step_at(pressure);
+  if (s.kind == State::Kind::round) s.paint_point(s.last, pressure);
 }
 
 void StrokePainter::line_to(std::span<const Crossing> crossings, const SurfacePoint& point,
@@ -237,12 +394,15 @@ void StrokePainter::line_to(std::span<const Crossing> crossings, const SurfacePo
                     from_pressure + t1 * (pressure - from_pressure));
     }
   }
+  if (length > 0.0) s.has_piece = true;
   s.last = to;
   s.last_pressure = pressure;
 }
 
 void StrokePainter::end() {
-  if (state_->layers) state_->layers->end_stroke();
+  if (!state_->layers) return;
+  state_->finish_part();
+  state_->layers->end_stroke();
   state_->layers = nullptr;
 }
 
@@ -250,13 +410,12 @@ std::size_t StrokePainter::memory_bytes() const {
   return sizeof(State) + state_->map.memory_bytes();
 }
 
-void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
-                 const ProjectedCurve& curve, std::span<const double> pressures) {
+void follow_curve(StrokePainter& painter, const ProjectedCurve& curve,
+                  std::span<const double> pressures) {
   if (!pressures.empty() && pressures.size() != curve.points.size())
     throw Error(ErrorKind::invalid_input,
                 "brush: " + std::to_string(pressures.size()) + " pressures for " +
                     std::to_string(curve.points.size()) + " points; give one for each");
-  painter.begin(layers, layer, brush);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const SurfacePoint& p = curve.points[i].surface;
     const double pressure = pressures.empty() ? 1.0 : pressures[i];
@@ -267,6 +426,12 @@ void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const B
     else
       painter.line_to(curve.piece_crossings(i - 1), p, pressure);
   }
+}
+
+void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
+                 const ProjectedCurve& curve, std::span<const double> pressures) {
+  painter.begin(layers, layer, brush);
+  follow_curve(painter, curve, pressures);
   painter.end();
 }
 

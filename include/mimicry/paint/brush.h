@@ -8,6 +8,7 @@
 #include <mimicry/curve/projected_curve.h>
 #include <mimicry/paint/atlas.h>
 #include <mimicry/paint/layers.h>
+#include <mimicry/paint/stamp.h>
 
 namespace mimicry {
 
@@ -58,6 +59,9 @@ class StrokePainter {
   /// Opens a stroke. Throws Error(invalid_input) for a brush out of range, layers of another size
   /// than the atlas, and as `PaintLayers::begin_stroke`.
   void begin(PaintLayers& layers, int layer, const Brush& brush);
+  /// The same with images, which must stay until `end`. Pressure does nothing to them.
+  void begin(PaintLayers& layers, int layer, const Stamp& stamp, const StampImage& image);
+  void begin(PaintLayers& layers, int layer, const Ribbon& ribbon, const StampImage& image);
   /// A part of the stroke starts here, with its first dab. Throws Error(invalid_input) for a point
   /// off the mesh, a pressure outside 0 to 1 and where no stroke is open.
   void move_to(const SurfacePoint& point, double pressure = 1.0);
@@ -77,8 +81,11 @@ class StrokePainter {
   std::unique_ptr<State> state_;
 };
 
-/// The whole of a curve as one stroke: parts between gaps and chords, which get no paint.
+/// The whole of a curve in the open stroke: parts between gaps and chords, which get no paint.
 /// pressures: one for each point, or empty for 1.
+void follow_curve(StrokePainter& painter, const ProjectedCurve& curve,
+                  std::span<const double> pressures = {});
+/// A curve as one stroke: `begin`, `follow_curve`, `end`.
 void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
                  const ProjectedCurve& curve, std::span<const double> pressures = {});
 

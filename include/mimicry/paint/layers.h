@@ -78,6 +78,9 @@ class PaintLayers {
   /// The same with a colour at the texel in place of the ink's: linear light, premultiplied by its
   /// alpha, laid over what the stroke has there.
   void lay_over(int x, int y, const std::array<float, 4>& color);
+  /// The same colour in place of what the stroke has there, where `nearness` (above 0) is larger
+  /// than that which came with it.
+  void lay_nearest(int x, int y, const std::array<float, 4>& color, float nearness);
   /// A of the open stroke.
   float coverage(int x, int y) const;
   /// Puts the stroke on its layer.
@@ -117,7 +120,7 @@ class PaintLayers {
     int layer_id;
     std::vector<Change> changes;
   };
-  // Coverage, or colour and coverage.
+  // Coverage; or colour, coverage and, of ribbons, nearness.
   using StrokeTile = std::vector<float>;
 
   std::size_t tile_of(int x, int y) const {
@@ -130,6 +133,8 @@ class PaintLayers {
   const Layer& layer_at(int layer) const;
   void require_no_stroke() const;
   float* stroke_texel(int x, int y);
+  void use_channels(int count);
+  std::size_t coverage_channel() const { return stroke_channels_ == 1 ? 0 : 3; }
   Rgba8 with_stroke(const Rgba8& below, const float* stroke) const;
   void refresh(int x, int y);
   void refresh_tile(int tile);
