@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <mimicry/base/error.h>
-
 #include "files/file.h"
 #include "files/names.h"
 #include "files/output_lock.h"
@@ -22,10 +20,7 @@ constexpr int kLockFlags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXE
 // Takes the lock of an open file. False where the file system has none.
 bool take(int file, const std::string& output) {
   if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
-  if (errno == EWOULDBLOCK)
-    throw Error(ErrorKind::io, output +
-                                   ": another program is writing there; wait until it is done, "
-                                   "or write to another place");
+  if (errno == EWOULDBLOCK) fail_locked(output);
   return false;
 }
 

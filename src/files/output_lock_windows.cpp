@@ -3,8 +3,6 @@
 
 #include <windows.h>
 
-#include <mimicry/base/error.h>
-
 #include "files/file.h"
 #include "files/names.h"
 #include "files/output_lock.h"
@@ -32,10 +30,7 @@ struct OutputLock::Held {
                        FILE_ATTRIBUTE_HIDDEN | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
     if (file != INVALID_HANDLE_VALUE) return;
     const DWORD error = GetLastError();
-    if (error == ERROR_SHARING_VIOLATION)
-      throw Error(ErrorKind::io, output +
-                                     ": another program is writing there; wait until it is done, "
-                                     "or give another --out");
+    if (error == ERROR_SHARING_VIOLATION) fail_locked(output);
     set_errno(error);
     fail(output, "cannot be written", errno);
   }

@@ -20,4 +20,10 @@ void fail_kind(const std::string& path, Kind kind) {
                                  " where a plain file belongs; remove it, or give another place");
 }
 
+void fail_locked(const std::string& output) {
+  throw Error(ErrorKind::io, output +
+                                 ": another program is writing there; wait until it is done, or "
+                                 "write to another place");
+}
+
 }  // namespace mimicry

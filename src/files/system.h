@@ -47,6 +47,8 @@ struct FileStatus {
 [[noreturn]] void fail(const std::string& path, const char* what, int error);
 /// For what is there, but is no file.
 [[noreturn]] void fail_kind(const std::string& path, Kind kind);
+/// Throws Error(io): another program has the lock of this output.
+[[noreturn]] void fail_locked(const std::string& output);
 
 enum class Wait { no, for_other_end };  // of a pipe
 int open_to_read(const std::string& path, Wait wait);

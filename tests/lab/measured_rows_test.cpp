@@ -9,6 +9,7 @@
 #include <mimicry/assets/canvas.h>
 #include <mimicry/base/error.h>
 
+#include "files/names.h"
 #include "lab/columns.h"
 #include "lab/study_rows.h"
 
@@ -152,7 +153,7 @@ TEST(RejectedStrokes, ReadBack) {
   EXPECT_EQ(former[0].method, "spraycan");
   EXPECT_EQ(former[0].shape, "hand");
   EXPECT_THROW(read_rejected("a\n1\n", "r.csv"), Error);
-  EXPECT_EQ(rejected_beside("study/rows.csv"), "study/rows.rejected.csv");
+  EXPECT_EQ(rejected_beside("study/rows.csv"), join_path("study", "rows.rejected.csv"));
 }
 
 }  // namespace

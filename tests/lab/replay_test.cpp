@@ -1,7 +1,6 @@
 #include "lab/replay.h"
 
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -25,6 +24,7 @@
 #include "lab/replayer.h"
 #include "lab/simulated_strokes.h"
 #include "lab/simulated_study.h"
+#include "support/environment.h"
 #include "support/folder.h"
 
 namespace mimicry::lab {
@@ -294,7 +294,7 @@ TEST(Replay, PathsThatTheSystemDoesNotLookAtAreNamed) {
 // How many threads beside those of before run when a bake first tells of itself, which ends it.
 template <class Work>
 std::size_t threads_of_bake(const test::TestFolder& folder, const Work& work) {
-  ::setenv("MIMICRY_CACHE", folder.path("cache").c_str(), 1);
+  const test::TestVariable cache("MIMICRY_CACHE", folder.path("cache"));
   const auto running = [] {
     const std::filesystem::directory_iterator tasks("/proc/self/task");
     return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
@@ -308,7 +308,6 @@ std::size_t threads_of_bake(const test::TestFolder& folder, const Work& work) {
     throw Error(ErrorKind::cancelled, "enough");
   };
   EXPECT_THROW(work(monitor), Error);
-  ::unsetenv("MIMICRY_CACHE");
   EXPECT_GE(during, before);
   return during - before;
 }
