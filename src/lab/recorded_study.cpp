@@ -11,6 +11,7 @@
 #include <mimicry/base/error.h>
 #include <mimicry/base/parallel.h>
 
+#include "assets/meshes.h"
 #include "assets/work.h"
 #include "lab/participant_folder.h"
 #include "lab/study_numbers.h"
@@ -39,14 +40,16 @@ struct Outcome {
   std::vector<std::string> notes;
 };
 
-void load_shape(MeasuredShape& shape, const StudyShapes& study, const std::string& targets,
+void load_shape(MeasuredShape& shape, const RecordedStudyOptions& options, const StudyShapes& study,
                 const Monitor& monitor) {
   try {
+    const NamedMesh named = load_mesh(mesh_spec(options.shapes, shape.name), monitor);
+    shape.target.emplace(make_target(named, {}, monitor));
     const StudyShape* known = study.find(shape.name);
     if (known == nullptr)
       throw Error(ErrorKind::invalid_input,
-                  source_name(targets) + ": has no shape '" + shape.name + "'");
-    shape.target.emplace(study.load(*known, monitor));
+                  source_name(options.targets) + ": has no shape '" + shape.name + "'");
+    require_fits(*known->shape, named.mesh);
     shape.curves = *known->shape;
     for (TargetCurve& curve : shape.curves.curves)
       curve = with_keypoints(std::move(curve), *shape.target, shape.curves.scale);
@@ -70,7 +73,7 @@ std::map<Index, MeasuredShape> load_shapes(const std::vector<ParticipantFolder>&
         shape.problem = "neither the study nor " + source_name(options.targets) + " has a shape " +
                         std::to_string(number);
       else
-        load_shape(shape, study, options.targets, monitor);
+        load_shape(shape, options, study, monitor);
     }
   return shapes;
 }
