@@ -103,7 +103,7 @@ TEST(SignedDistance, AllocatesNothing) {
   int inside = 0, outside = 0;
   for (int i = 0; i < 20; ++i) {
     const auto distance = signed_distance(target, winding, Vec3(0.1 * i, 0.2, 0.3));
-    if (distance) ++(*distance < 0.0 ? inside : outside);
+    if (distance) ++(distance->distance < 0.0 ? inside : outside);
   }
   EXPECT_EQ(test::allocation_count(), before);
   EXPECT_GT(inside, 5);
