@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """alone.py INCLUDE FOLDER HEADER...: each header under INCLUDE compiles alone, without a warning, under g++ and
-clang++ as C++20 and C++23. Eigen, where a header leads to it, is compiled once for each compiler and standard
-(FOLDER): that half of a second is most of what a header takes."""
+clang++ as C++20, and all of them together as C++23: what one lacks it lacks in either standard. Eigen, where a header
+leads to it, is compiled once for each compiler (FOLDER): that half of a second is most of what a header takes."""
 import os
 import pathlib
 import re
@@ -56,17 +56,27 @@ def check(task):
     return f"{header} alone, {compiler} -std={standard}:\n{trouble}" if trouble else ""
 
 
+def check_together(task):
+    compiler, standard = task
+    file = FOLDER / f"{compiler}-{standard}.cpp"
+    file.write_text("".join(f"#include <{header}>\n" for header in HEADERS))
+    trouble = compile_([compiler, f"-std={standard}", *FLAGS, "-fsyntax-only", str(file)])
+    return f"all headers, {compiler} -std={standard}:\n{trouble}" if trouble else ""
+
+
 def main():
     assert HEADERS, "no headers are given"
     leads_to_eigen = {h: any(n.startswith("Eigen/") for n in needs(h, frozenset())) for h in HEADERS}
-    tasks = []
-    for compiler, (standards, _) in COMPILERS.items():
-        for standard in standards:
-            eigen = precompiled(compiler, standard)
-            tasks += [(compiler, standard, h, eigen if leads_to_eigen[h] else []) for h in HEADERS]
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    tasks, together = [], []
+    for compiler, ((first, later), _) in COMPILERS.items():
+        eigen = precompiled(compiler, first)
+        tasks += [(compiler, first, h, eigen if leads_to_eigen[h] else []) for h in HEADERS]
+        together.append((compiler, later))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults = [fault for fault in pool.map(check, tasks) if fault]
-    print(f"{len(HEADERS)} headers, {len(tasks)} compilations, {len(faults)} faults")
+        faults = [*pool.map(check_together, together), *pool.map(check, tasks)]
+    faults = [fault for fault in faults if fault]
+    print(f"{len(HEADERS)} headers, {len(tasks) + len(together)} compilations, {len(faults)} faults")
     sys.exit("\n".join(faults) if faults else 0)
 
 
