@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +41,9 @@ struct PaintArguments {
   double radius = 0.01;
   bool model_units = false;
   Brush brush;
+  std::string stamp, ribbon, align = "tangent";  // images
+  Stamp stamping;
+  double rotation_deg = 0.0, rotation_jitter_deg = 0.0;
   TargetOptions target;
   bool json = false;
 };
@@ -176,6 +180,54 @@ std::vector<std::string> write_outputs(const PaintArguments& args, const Triangl
   return written;
 }
 
+std::optional<StampImage> load_image(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  const render::RgbaImage image =
+      render::read_png(read_file(path), to_text(to_path(path).filename()), StampImage::kMostPixels);
+  return StampImage(image.width, image.height, image.pixels);
+}
+
+// Opens strokes of a curve, whose lengths in metres are `scale` times those of the mesh.
+class Strokes {
+ public:
+  explicit Strokes(const PaintArguments& args)
+      : brush_(args.brush),
+        stamp_(args.stamping),
+        stamp_image_(load_image(args.stamp)),
+        ribbon_image_(load_image(args.ribbon)) {
+    brush_.radius = args.radius;
+    brush_.color = parse_color(args.color, "--color");
+    brush_.blend = args.blend == "max" ? BrushBlend::max : BrushBlend::build;
+    require_valid(brush_);
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    stamp_.size = 2.0 * args.radius;
+    stamp_.opacity = brush_.opacity;
+    stamp_.follow = args.align == "tangent";
+    stamp_.rotation_rad = kDegree * args.rotation_deg;
+    stamp_.rotation_jitter_rad = kDegree * args.rotation_jitter_deg;
+    if (stamp_image_) require_valid(stamp_);
+    if (ribbon_image_) require_valid(Ribbon{2.0 * args.radius, brush_.opacity});
+  }
+
+  void begin(StrokePainter& painter, PaintLayers& layers, double scale) const {
+    if (stamp_image_) {
+      Stamp stamp = stamp_;
+      stamp.size /= scale;
+      return painter.begin(layers, 0, stamp, *stamp_image_);
+    }
+    Brush brush = brush_;
+    brush.radius /= scale;
+    if (ribbon_image_)
+      return painter.begin(layers, 0, Ribbon{2.0 * brush.radius, brush.opacity}, *ribbon_image_);
+    painter.begin(layers, 0, brush);
+  }
+
+ private:
+  Brush brush_;
+  Stamp stamp_;
+  std::optional<StampImage> stamp_image_, ribbon_image_;
+};
+
 void check_outputs(const PaintArguments& args) {
   if (args.out.empty() && args.png.empty())
     throw CLI::ValidationError("--out", "nothing is to be written; give --out or --png");
@@ -189,11 +241,7 @@ void check_outputs(const PaintArguments& args) {
 
 void run_paint(const PaintArguments& args, int&) {
   check_outputs(args);
-  Brush brush = args.brush;
-  brush.radius = args.radius;
-  brush.color = parse_color(args.color, "--color");
-  brush.blend = args.blend == "max" ? BrushBlend::max : BrushBlend::build;
-  require_valid(brush);
+  const Strokes strokes(args);
   const Rgb8 base = parse_color(args.base.empty() ? "#ffffff" : args.base, "--base");
 
   const NamedMesh named = load_mesh(args.mesh, terminal_monitor());
@@ -213,10 +261,10 @@ void run_paint(const PaintArguments& args, int&) {
   std::size_t painted = 0;
   for (const CurveRecord& record : set.curves) {
     monitor.report("painting", painted, set.curves.size());
-    Brush of_curve = brush;
-    if (!args.model_units) of_curve.radius /= record.model_to_world.scale;
     if (record.curve.points.empty()) continue;
-    paint_curve(painter, layers, 0, of_curve, record.curve);
+    strokes.begin(painter, layers, args.model_units ? 1.0 : record.model_to_world.scale);
+    follow_curve(painter, record.curve);
+    painter.end();
     ++painted;
   }
   std::size_t texels = 0;
@@ -264,6 +312,25 @@ void add_paint(CLI::App& app, int& status) {
   command->add_option("--blend", args->blend, "build: dabs add up; max: the largest counts")
       ->check(CLI::IsMember({"build", "max"}))
       ->capture_default_str();
+  auto* stamp = command->add_option("--stamp", args->stamp,
+                                    "A PNG in place of the round brush, as wide as that");
+  command->add_option("--ribbon", args->ribbon, "A PNG along the stroke, as wide as the brush")
+      ->excludes(stamp);
+  command->add_option("--align", args->align, "Stamps: along the curve's tangent, or with y up")
+      ->check(CLI::IsMember({"tangent", "fixed"}))
+      ->capture_default_str();
+  command->add_option("--stamp-spacing", args->stamping.spacing, "Of stamps, in sizes")
+      ->capture_default_str();
+  command->add_option("--rotation", args->rotation_deg, "Of stamps, degrees")
+      ->capture_default_str();
+  command
+      ->add_option("--size-jitter", args->stamping.size_jitter,
+                   "Of stamps at random, part of the size, 0 to 0.9")
+      ->capture_default_str();
+  command
+      ->add_option("--rotation-jitter", args->rotation_jitter_deg, "Of stamps at random, degrees")
+      ->capture_default_str();
+  command->add_option("--seed", args->stamping.seed, "Of the jitter")->capture_default_str();
   command
       ->add_option("--atlas", args->atlas,
                    "cells: for any mesh; mesh: the file's own texture coordinates")

@@ -47,6 +47,18 @@ def read_png(data):
     return width, rows
 
 
+def write_png(path, width, height, pixel):
+    """An RGBA picture; pixel(x, y) is four bytes."""
+    raw = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
+    chunks = (b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)), \
+        (b"IDAT", zlib.compress(raw)), (b"IEND", b"")
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        for kind, body in chunks:
+            file.write(struct.pack(">I", len(body)) + kind + body +
+                       struct.pack(">I", zlib.crc32(kind + body)))
+
+
 class Paint(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -160,6 +172,31 @@ class Paint(unittest.TestCase):
         self.paint("-o", self.path("bad.stl"), expect=2)
         self.paint(expect=2)
         self.assertFalse(any(name.startswith("bad") for name in os.listdir(self.folder.name)))
+
+    def test_stamps_and_ribbons_are_images(self):
+        image = self.path("image.png")
+        write_png(image, 16, 8, lambda x, y: (0, 255, 0, 255) if x < 8 else (0, 0, 255, 255))
+        for option in (["--stamp", image, "--align", "fixed", "--rotation", "30"],
+                       ["--stamp", image, "--size-jitter", "0.3", "--seed", "4"],
+                       ["--ribbon", image]):
+            self.paint("--png", self.path("i.png"), *option)
+            with open(self.path("i.png"), "rb") as file:
+                rows = read_png(file.read())[1]
+            pixels = {row[3 * x:3 * x + 3] for row in rows for x in range(256)}
+            self.assertTrue({b"\0\xff\0", b"\0\0\xff"} <= pixels, option)
+        self.paint("--png", self.path("i.png"), "--stamp", image, "--ribbon", image, expect=2)
+        with open(image, "rb") as file:
+            whole = file.read()
+        with open(image, "wb") as file:
+            file.write(whole[:50])
+        done = self.paint("--png", self.path("bad.png"), "--stamp", image, expect=3)
+        self.assertIn("image.png: cannot be read as PNG", done.stderr)
+        with open(image, "wb") as file:  # a header that claims too much
+            head = whole[:16] + struct.pack(">II", 20000, 8) + whole[24:29]
+            file.write(head + struct.pack(">I", zlib.crc32(head[12:])) + whole[33:])
+        done = self.paint("--png", self.path("bad.png"), "--ribbon", image, expect=3)
+        self.assertIn("20000 x 8 pixels; give at most 16384 a side", done.stderr)
+        self.assertFalse(os.path.exists(self.path("bad.png")))
 
     def test_same_input_same_bits_and_any_radius(self):
         for name in ("f.glb", "g.glb"):
