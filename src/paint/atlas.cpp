@@ -99,7 +99,7 @@ void PaintAtlas::place_cells(std::span<const int> steps) {
       const int corner = corner_of_largest_angle(mesh, f);
       cells_[at(f)] = {static_cast<std::uint16_t>(upper ? x + row.steps + 2 : x),
                        static_cast<std::uint16_t>(upper ? row.y + row.steps + 1 : row.y),
-                       static_cast<std::uint16_t>(row.steps), static_cast<std::int8_t>(corner),
+                       static_cast<std::uint16_t>(row.steps), static_cast<std::uint8_t>(corner),
                        upper};
       const double leg =
           std::max((mesh.corner(f, (corner + 1) % 3) - mesh.corner(f, corner)).norm(),
@@ -130,7 +130,7 @@ TexelFrame PaintAtlas::frame(Index face) const {
     return frame;
   }
   const Cell& c = cells_[at(face)];
-  if (c.corner < 0 || c.steps == 0) {
+  if (c.corner > 2 || c.steps == 0) {
     frame.origin = Vec3::Constant(1.0 / 3.0);
     return frame;
   }
@@ -154,7 +154,7 @@ Vec2 PaintAtlas::place(const SurfacePoint& p) const {
   }
   const Cell& c = cells_[at(p.face)];
   const double step = c.upper ? -double(c.steps) : double(c.steps);
-  const int k = std::max<int>(c.corner, 0);
+  const int k = c.corner % 3;
   return {c.x + step * p.bary[(k + 2) % 3], c.y + step * p.bary[(k + 1) % 3]};
 }
 
@@ -207,7 +207,7 @@ CornerValues<2> PaintAtlas::texcoords() const {
   for (std::size_t i = 0; i < corners; ++i) {
     result.corners[i] = static_cast<Index>(i);
     SurfacePoint p{static_cast<Index>(i / 3), Vec3::Zero()};
-    if (cells_[at(p.face)].corner < 0) continue;
+    if (cells_[at(p.face)].corner > 2) continue;
     p.bary[static_cast<Eigen::Index>(i % 3)] = 1.0;
     const Vec2 texel = place(p);
     result.values[i] = {static_cast<float>((texel.x() + 0.5) / size_),

@@ -25,7 +25,7 @@ void require_opacity(double opacity) {
 }
 
 std::uint8_t byte(float x) {
-  return static_cast<std::uint8_t>(255.0f * x + 0.5f);
+  return static_cast<std::uint8_t>(std::lrint(255.0f * x));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace mimicry {
@@ -12,7 +14,7 @@ struct SrgbTables {
 
   std::uint8_t encode(float x) const {
     const float clamped = x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
-    return encoded[static_cast<std::size_t>(clamped * 65535.0f + 0.5f)];
+    return encoded[static_cast<std::size_t>(std::lrint(clamped * 65535.0f))];
   }
 };
 

@@ -19,13 +19,13 @@ Color linear(const Rgba8& texel) {
 }
 
 Rgba8 encoded(const Color& c) {
-  Rgba8 texel = {0, 0, 0, static_cast<std::uint8_t>(255.0f * c[3] + 0.5f)};
+  Rgba8 texel = {0, 0, 0, static_cast<std::uint8_t>(std::lrint(255.0f * c[3]))};
   if (c[3] > 0.0f)
     for (std::size_t k = 0; k < 3; ++k) texel[k] = srgb_tables().encode(c[k] / c[3]);
   return texel;
 }
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_image(const std::string& why) {
   throw Error(ErrorKind::invalid_input, why);
 }
 
@@ -37,11 +37,11 @@ bool is_outside(double value, double low, double high) {
 
 StampImage::StampImage(int width, int height, std::span<const Rgba8> texels) {
   if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
-    refuse("image: " + std::to_string(width) + " x " + std::to_string(height) +
-           " pixels; give 1 to " + std::to_string(kMostPixels) + " a side");
+    refuse_image("image: " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels; give 1 to " + std::to_string(kMostPixels) + " a side");
   if (texels.size() != at(width) * at(height))
-    refuse("image: " + std::to_string(texels.size()) + " pixels for " + std::to_string(width) +
-           " x " + std::to_string(height) + "; give one for each");
+    refuse_image("image: " + std::to_string(texels.size()) + " pixels for " +
+                 std::to_string(width) + " x " + std::to_string(height) + "; give one for each");
   levels_.push_back({width, height, {texels.begin(), texels.end()}});
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& from = levels_.back();
@@ -89,23 +89,23 @@ std::array<float, 4> StampImage::sample(double u, double v, double footprint, bo
 
 void require_valid(const Stamp& stamp) {
   if (is_outside(stamp.size, 0.0, kInfinity) || stamp.size == 0.0 || std::isinf(stamp.size))
-    refuse("stamp: its size is not above 0; give a length");
+    refuse_image("stamp: its size is not above 0; give a length");
   if (is_outside(stamp.spacing, 0.01, 100.0))
-    refuse("stamp: its spacing is out of range; give 0.01 to 100");
+    refuse_image("stamp: its spacing is out of range; give 0.01 to 100");
   if (is_outside(stamp.opacity, 0.0, 1.0))
-    refuse("stamp: its opacity is out of range; give 0 to 1");
+    refuse_image("stamp: its opacity is out of range; give 0 to 1");
   if (is_outside(stamp.size_jitter, 0.0, 0.9))
-    refuse("stamp: its size_jitter is out of range; give 0 to 0.9");
+    refuse_image("stamp: its size_jitter is out of range; give 0 to 0.9");
   if (!std::isfinite(stamp.rotation_rad) || !std::isfinite(stamp.rotation_jitter_rad) ||
       stamp.rotation_jitter_rad < 0.0 || !stamp.up.allFinite())
-    refuse("stamp: its rotation, jitter of rotation or up is no number; give radians");
+    refuse_image("stamp: its rotation, jitter of rotation or up is no number; give radians");
 }
 
 void require_valid(const Ribbon& ribbon) {
   if (is_outside(ribbon.width, 0.0, kInfinity) || ribbon.width == 0.0 || std::isinf(ribbon.width))
-    refuse("ribbon: its width is not above 0; give a length");
+    refuse_image("ribbon: its width is not above 0; give a length");
   if (is_outside(ribbon.opacity, 0.0, 1.0))
-    refuse("ribbon: its opacity is out of range; give 0 to 1");
+    refuse_image("ribbon: its opacity is out of range; give 0 to 1");
 }
 
 }  // namespace mimicry

@@ -87,7 +87,7 @@ class PaintAtlas {
   // a turn in the upper half.
   struct Cell {
     std::uint16_t x = 0, y = 0, steps = 0;
-    std::int8_t corner = -1;  // the one at (x, y); -1: the face is no part of the surface
+    std::uint8_t corner = 3;  // the one at (x, y); 3: the face is no part of the surface
     bool upper = false;
   };
   // Rectangles of one size side by side.
@@ -127,7 +127,7 @@ void PaintAtlas::for_each_run(Index face, Visit&& visit) const {
     return;
   }
   const Cell& c = cells_[at(face)];
-  if (c.corner < 0) return;
+  if (c.corner > 2) return;
   const int x = c.x, y = c.y, steps = c.steps;
   if (steps == 0) return visit(TexelRun{y, x, x + 1});
   for (int j = 0; j <= steps + 1; ++j)
