@@ -38,6 +38,7 @@ class BlockPcg {
                const ProgressCallback& progress) const;
 
   Index unknowns() const { return unknowns_; }
+
  private:
   std::size_t widest_row() const;
   UpperRows assemble() const;
