@@ -24,20 +24,26 @@ struct Capsule {
 // Of k: 1 up to `low`, 0 from `high` on. Where that is less than a texel wide it is a texel around
 // the same middle.
 struct Falloff {
-  double low, high;
+  double low, scale;
+  double low_square, high_square;
+
   Falloff(double radius, double hardness, double texel) {
     low = hardness * radius;
-    high = radius;
+    double high = radius;
     if (high - low < texel) {
       const double middle = 0.5 * (low + high);
       low = middle - 0.5 * texel;
       high = middle + 0.5 * texel;
     }
+    scale = high > low ? 1.0 / (high - low) : 0.0;
+    low_square = low > 0.0 ? low * low : -1.0;
+    high_square = high * high;
   }
-  double at(double distance) const {
-    if (distance <= low) return 1.0;
-    if (distance >= high) return 0.0;
-    const double t = (distance - low) / (high - low);
+  // By the square of the distance: most texels need no root.
+  double at_square(double square) const {
+    if (square <= low_square) return 1.0;
+    if (square >= high_square) return 0.0;
+    const double t = (std::sqrt(square) - low) * scale;
     return 1.0 - t * t * (3.0 - 2.0 * t);
   }
 };

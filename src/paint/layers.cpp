@@ -31,7 +31,7 @@ std::uint8_t byte(float x) {
 }  // namespace
 
 PaintLayers::PaintLayers(int size, const Rgb8& base, std::size_t undo_bytes)
-    : size_(size), base_color_(base), undo_limit_(undo_bytes) {
+    : size_(size), base_color_(base), srgb_(&srgb_tables()), undo_limit_(undo_bytes) {
   if (size < kLeastTextureSize || size > kMostTextureSize)
     fail("a texture of " + std::to_string(size) + " texels; give " +
          std::to_string(kLeastTextureSize) + " to " + std::to_string(kMostTextureSize));
@@ -164,6 +164,7 @@ float* PaintLayers::stroke_texel(int x, int y) {
 
 void PaintLayers::cover(int x, int y, float alpha) {
   float& a = *stroke_texel(x, y);
+  if (a >= 1.0f) return;  // as most of a stroke is under its brush
   a = 1.0f - (1.0f - a) * (1.0f - alpha);
   refresh(x, y);
 }
@@ -218,7 +219,11 @@ Rgba8 PaintLayers::with_stroke(const Rgba8& below, const float* stroke) const {
   const float sum = add + under;
   if (!(sum > 0.0f)) return below;
   result[3] = byte(sum);
-  const SrgbTables& srgb = srgb_tables();
+  if (stroke_channels_ == 1 && !(under > 0.0f)) {
+    std::copy(ink_.color.begin(), ink_.color.end(), result.begin());
+    return result;
+  }
+  const SrgbTables& srgb = *srgb_;
   for (std::size_t k = 0; k < 3; ++k) {
     const float color = stroke_channels_ == 1 ? ink_linear_[k] : stroke[k] / a;
     result[k] = srgb.encode((add * color + under * srgb.linear[below[k]]) / sum);
@@ -229,23 +234,35 @@ Rgba8 PaintLayers::with_stroke(const Rgba8& below, const float* stroke) const {
 void PaintLayers::refresh(int x, int y) {
   const std::size_t t = tile_of(x, y), i = texel_of(x, y);
   const std::size_t pixel = at(y) * at(size_) + at(x);
-  const SrgbTables& srgb = srgb_tables();
+  const SrgbTables& srgb = *srgb_;
   const Rgba8 base =
       base_.empty() ? Rgba8{base_color_[0], base_color_[1], base_color_[2], 255} : base_[pixel];
-  std::array<float, 3> mixed;
-  for (std::size_t k = 0; k < 3; ++k) mixed[k] = srgb.linear[base[k]];
+  Rgba8 only = base;  // what shows where one thing alone does: its bytes, with nothing to mix
+  bool is_mixed = false;
+  std::array<float, 3> mixed = {};
   for (std::size_t l = 0; l < layers_.size(); ++l) {
     const auto& tile = layers_[l].tiles[t];
     Rgba8 paint = tile ? (*tile)[i] : kNothing;
     if (static_cast<int>(l) == stroke_layer_ && !stroke_[t].empty())
       paint = with_stroke(paint, stroke_[t].data() + i * at(stroke_channels_));
-    if (paint[3] == 0) continue;
     const float a = static_cast<float>(layers_[l].opacity) * static_cast<float>(paint[3]) / 255.0f;
+    if (!(a > 0.0f)) continue;
+    if (a >= 1.0f) {
+      only = paint;
+      is_mixed = false;
+      continue;
+    }
     for (std::size_t k = 0; k < 3; ++k)
-      mixed[k] = a * srgb.linear[paint[k]] + (1.0f - a) * mixed[k];
+      mixed[k] =
+          a * srgb.linear[paint[k]] + (1.0f - a) * (is_mixed ? mixed[k] : srgb.linear[only[k]]);
+    is_mixed = true;
+  }
+  mark(t);
+  if (!is_mixed) {
+    pixels_[pixel] = {only[0], only[1], only[2], base[3]};
+    return;
   }
   pixels_[pixel] = {srgb.encode(mixed[0]), srgb.encode(mixed[1]), srgb.encode(mixed[2]), base[3]};
-  mark(t);
 }
 
 void PaintLayers::mark(std::size_t tile) {

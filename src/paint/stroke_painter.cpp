@@ -43,6 +43,7 @@ struct StrokePainter::State {
   NearMap map;
   SurfacePath path;
   std::vector<Dab> dabs;
+  std::vector<Falloff> falloffs;  // of the dabs on one face
   std::vector<double> dab_lengths;
   PaintLayers* layers = nullptr;
   Brush brush;
@@ -125,18 +126,19 @@ void StrokePainter::State::paint_dabs(const Vec2& from, const Vec2& to, double b
   for (const Index f : map.faces()) {
     const double texel = atlas.texel_length(f);
     const TexelPlaces places(atlas.frame(f), map.corners(f));
-    for_each_texel_within(atlas, f, places, middle, half + largest + 0.5 * texel,
-                          [&](int x, int y, const Vec2& place) {
-                            float rest = 1.0f;
-                            for (const Dab& dab : dabs) {
-                              const Falloff falloff(dab.radius, brush.hardness, texel);
-                              const double square = (place - dab.place).squaredNorm();
-                              if (square >= falloff.high * falloff.high) continue;
-                              rest *= 1.0f -
-                                      dab.alpha * static_cast<float>(falloff.at(std::sqrt(square)));
-                            }
-                            if (rest < 1.0f) layers->cover(x, y, 1.0f - rest);
-                          });
+    falloffs.clear();
+    for (const Dab& dab : dabs) falloffs.emplace_back(dab.radius, brush.hardness, texel);
+    for_each_texel_within(
+        atlas, f, places, middle, half + largest + 0.5 * texel,
+        [&](int x, int y, const Vec2& place) {
+          float rest = 1.0f;
+          for (std::size_t i = 0; i < dabs.size(); ++i) {
+            const double square = (place - dabs[i].place).squaredNorm();
+            if (square < falloffs[i].high_square)
+              rest *= 1.0f - dabs[i].alpha * static_cast<float>(falloffs[i].at_square(square));
+          }
+          if (rest < 1.0f) layers->cover(x, y, 1.0f - rest);
+        });
   }
 }
 
@@ -144,23 +146,28 @@ void StrokePainter::State::paint_capsule(const Capsule& c) {
   const Vec2 middle = 0.5 * (c.from + c.to);
   const Vec2 along = c.to - c.from;
   const double square = along.squaredNorm();
+  const double per_square = square > 0.0 ? 1.0 / square : 0.0;
   const double widest = std::max(c.from_radius, c.to_radius);
+  const bool is_even = c.from_radius == c.to_radius;
   if (!(widest > 0.0)) return;
   for (const Index f : map.faces()) {
     const double texel = atlas.texel_length(f);
     const TexelPlaces places(atlas.frame(f), map.corners(f));
-    for_each_texel_within(
-        atlas, f, places, middle, 0.5 * std::sqrt(square) + widest + 0.5 * texel,
-        [&](int x, int y, const Vec2& place) {
-          const double t =
-              square > 0.0 ? std::clamp((place - c.from).dot(along) / square, 0.0, 1.0) : 0.0;
-          const Falloff falloff(c.from_radius + t * (c.to_radius - c.from_radius), brush.hardness,
-                                texel);
-          const double d = (place - c.from - t * along).squaredNorm();
-          if (d >= falloff.high * falloff.high) return;
-          const double flow = c.from_flow + t * (c.to_flow - c.from_flow);
-          layers->cover_at_least(x, y, static_cast<float>(flow * falloff.at(std::sqrt(d))));
-        });
+    const Falloff widest_falloff(widest, brush.hardness, texel);
+    for_each_texel_within(atlas, f, places, middle, 0.5 * std::sqrt(square) + widest + 0.5 * texel,
+                          [&](int x, int y, const Vec2& place) {
+                            const Vec2 way = place - c.from;
+                            const double t = std::clamp(way.dot(along) * per_square, 0.0, 1.0);
+                            const double d = (way - t * along).squaredNorm();
+                            if (d >= widest_falloff.high_square) return;
+                            const Falloff falloff =
+                                is_even ? widest_falloff
+                                        : Falloff(c.from_radius + t * (c.to_radius - c.from_radius),
+                                                  brush.hardness, texel);
+                            const double k = falloff.at_square(d);
+                            const double flow = c.from_flow + t * (c.to_flow - c.from_flow);
+                            if (k > 0.0) layers->cover_at_least(x, y, static_cast<float>(flow * k));
+                          });
   }
 }
 

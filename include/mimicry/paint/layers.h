@@ -10,6 +10,8 @@
 
 namespace mimicry {
 
+struct SrgbTables;
+
 /// sRGB as in image files, 0 to 255.
 using Rgb8 = std::array<std::uint8_t, 3>;
 /// sRGB and alpha, not multiplied by it.
@@ -151,6 +153,7 @@ class PaintLayers {
   Rgb8 base_color_ = {};
   std::vector<Rgba8> base_;  // empty: the colour everywhere
   std::vector<Rgba8> pixels_;
+  const SrgbTables* srgb_ = nullptr;
 
   int stroke_layer_ = -1;
   StrokeInk ink_;
