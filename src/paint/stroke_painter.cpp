@@ -22,6 +22,11 @@ constexpr double kLongestPiece = 1.0;
 // the brush's radius: at corners and on edges there are no directions of the other faces there.
 constexpr double kInward = 0.02;
 constexpr double kInwardOfRadius = 0.05;
+// Two pieces of a ribbon have maps of their own, in which their joint does not lie quite the same.
+// A piece goes on under the last one by this part of the distance from the curve, and a texel.
+constexpr double kJoint = 0.1;
+// Of the nearness of what lies under.
+constexpr double kUnder = 1e-3;
 
 }  // namespace
 
@@ -252,7 +257,8 @@ void StrokePainter::State::paint_ribbon(double begin, double end) {
   const double square = along.squaredNorm();
   // A place of the last piece gives the side of the joint that it has covered.
   const bool joins = has_piece && map.place(behind, back);
-  const Vec2 last_way = from - back;
+  const double last_length = (from - back).norm();
+  const Vec2 last_way = last_length > 0.0 ? Vec2((from - back) / last_length) : Vec2(Vec2::Zero());
   const double period = ribbon.width * image->width() / image->height();
   if (square > 0.0) {
     const Vec2 left = Vec2(-along.y(), along.x()) / std::sqrt(square);
@@ -265,15 +271,19 @@ void StrokePainter::State::paint_ribbon(double begin, double end) {
           [&](int x, int y, const Vec2& place) {
             const Vec2 way = place - from;
             double t = way.dot(along) / square;
-            if (t > 1.0 || (t < 0.0 && !(joins && way.dot(last_way) >= 0.0))) return;
+            if (t > 1.0 || (t < 0.0 && !joins)) return;
+            const double into_last = t < 0.0 ? -way.dot(last_way) : 0.0;
             t = std::max(t, 0.0);
             const double distance = (way - t * along).norm();
             if (distance >= half + 0.5 * texel) return;
+            if (into_last > std::min(last_length, kJoint * distance + texel)) return;
             const double side = way.dot(left) < 0.0 ? -distance : distance;
             const auto color =
                 image->sample((travelled + t * (end - begin)) / period, 0.5 - side / ribbon.width,
                               texel / ribbon.width * image->height(), true);
-            layers->lay_nearest(x, y, color, static_cast<float>(1.0 - distance / (half + texel)));
+            const double nearness = 1.0 - distance / (half + texel);
+            layers->lay_nearest(x, y, color,
+                                static_cast<float>(into_last > 0.0 ? kUnder * nearness : nearness));
           });
     }
   }
