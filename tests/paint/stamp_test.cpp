@@ -204,6 +204,51 @@ TEST(Ribbon, RunsAlongTheCurveWithoutGapsAtBends) {
   EXPECT_GT(inside, 1000);
 }
 
+// On curved surfaces each piece has a map of its own; they differ where pieces join.
+TEST(Ribbon, PiecesJoinWithoutCracksOnCurvedSurfaces) {
+  for (const char* name : {"sphere", "torus"}) {
+    const Surface surface = shape_surface(name, 24);
+    const PaintAtlas atlas = PaintAtlas::cells(surface, 1024);
+    const double width = 0.08 * diagonal(surface.mesh());
+    const StampImage image = solid(64, 32);
+    PaintLayers layers(1024, {255, 255, 255});
+    StrokePainter painter(atlas);
+    painter.begin(layers, 0, Ribbon{width}, image);
+    SurfacePoint last{300, Vec3(0.3, 0.3, 0.4)};
+    painter.move_to(last);
+    std::vector<Vec3> points = {surface.position(last)};
+    Vec3 way(0.2, 0.7, 0.6);
+    for (int i = 0; i < 60; ++i) {
+      std::vector<Crossing> crossings;
+      const Trace trace = trace_straightest(surface, last, way, 0.15 * width, &crossings);
+      ASSERT_EQ(trace.stop, TraceStop::complete);
+      painter.line_to(crossings, trace.end);
+      last = trace.end;
+      points.push_back(surface.position(last));
+      const Vec3 normal = face_normal(surface.mesh(), last.face);
+      way = Eigen::AngleAxisd(i % 30 < 15 ? 0.1 : -0.1, normal) * trace.direction;
+    }
+    painter.end();
+    int inside = 0, missing = 0;
+    for (int y = 0; y < 1024; ++y)
+      for (int x = 0; x < 1024; ++x) {
+        const SurfacePoint p = atlas.point(x, y);
+        if (p.face == kNone) continue;
+        std::size_t nearest = 0;
+        double least = kInfinity;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const double d = (points[i] - surface.position(p)).norm();
+          if (d < least) least = d, nearest = i;
+        }
+        if (least > 0.42 * width || nearest < 4 || nearest + 4 >= points.size()) continue;
+        ++inside;
+        missing += layers.layer_texel(0, x, y)[3] != 255;
+      }
+    EXPECT_GT(inside, 10000) << name;
+    EXPECT_EQ(missing, 0) << name;
+  }
+}
+
 TEST(Stamp, JitterIsTheSameForTheSameSeed) {
   const Surface surface = shape_surface("torus", 24);
   const PaintAtlas atlas = PaintAtlas::cells(surface, 512);
