@@ -34,14 +34,19 @@ struct StrokePainter::State {
   explicit State(const PaintAtlas& a) : atlas(a), map(a) {
     const FloatTrapMask mask;  // of coordinates whose squares are no numbers
     const TriangleMesh& mesh = a.surface().mesh();
-    double area = 0.0;
+    double area = 0.0, longest = 0.0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
       area += 0.5 * mesh.area_vector(f).norm();
-      for (int k = 0; k < 3; ++k)
-        all_edges += (mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k)).norm();
+      for (int k = 0; k < 3; ++k) {
+        const double edge = (mesh.corner(f, (k + 1) % 3) - mesh.corner(f, k)).norm();
+        all_edges += edge;
+        longest = std::max(longest, edge);
+      }
     }
-    if (!std::isfinite(all_edges)) all_edges = 1e100;
-    mean_texel = std::sqrt(area / double(std::max<std::size_t>(a.used_texels(), 1)));
+    if (!std::isfinite(all_edges)) all_edges = longest = 1e100;
+    // Of needles, which have hardly an area, no more texels than fit along them.
+    mean_texel = std::max(std::sqrt(area / double(std::max<std::size_t>(a.used_texels(), 1))),
+                          longest / kMostTextureSize);
   }
 
   const PaintAtlas& atlas;
