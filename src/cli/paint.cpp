@@ -133,13 +133,18 @@ TriangleMesh painted_mesh(const TriangleMesh& mesh, const PaintAtlas& atlas,
   }
   if (surface.source()) own.turn_faces(surface.source()->turned);
   if (by_vertex) {
-    // One colour a vertex: that of its first corner.
+    // One colour a vertex: that of its first corner with texels, which faces that repeat a corner
+    // have not.
     std::vector<Index> of_vertex(std::size_t(mesh.vertex_count()), kNone);
-    for (std::size_t c = 0; c < own.colors.corners.size(); ++c) {
-      Index& first = of_vertex[std::size_t(mesh.face(static_cast<Index>(c / 3))[c % 3])];
-      if (first == kNone) first = own.colors.corners[c];
-      own.colors.corners[c] = first;
-    }
+    for (const bool has_texels : {true, false})
+      for (std::size_t c = 0; c < own.colors.corners.size(); ++c) {
+        const auto f = static_cast<Index>(c / 3);
+        Index& first = of_vertex[std::size_t(mesh.face(f)[c % 3])];
+        if (first == kNone && repeats_corner(surface.face(f)) != has_texels)
+          first = own.colors.corners[c];
+      }
+    for (std::size_t c = 0; c < own.colors.corners.size(); ++c)
+      own.colors.corners[c] = of_vertex[std::size_t(mesh.face(static_cast<Index>(c / 3))[c % 3])];
     attributes.colors = std::move(own.colors);
     attributes.texcoords = {};
   } else {
@@ -160,8 +165,10 @@ std::vector<std::string> write_outputs(const PaintArguments& args, const Triangl
     written.push_back(path);
   };
   const std::string png = png_of(layers);
-  if (!args.png.empty()) write(args.png, png);
-  if (args.out.empty()) return written;
+  if (args.out.empty()) {
+    write(args.png, png);
+    return written;
+  }
   const MeshFormat format = mesh_format_of(args.out);
   MeshWriteOptions options;
   options.note = [](const std::string& sentence) { complain(sentence); };
@@ -171,6 +178,7 @@ std::vector<std::string> write_outputs(const PaintArguments& args, const Triangl
   if (format == MeshFormat::obj) options.material_file = material;
   const std::string bytes =
       write_mesh(painted_mesh(mesh, atlas, layers, format == MeshFormat::ply), format, options);
+  if (!args.png.empty()) write(args.png, png);
   if (format == MeshFormat::obj) {
     const std::filesystem::path image = beside.replace_extension(".png");
     if (to_text(image) != args.png) write(to_text(image), png);

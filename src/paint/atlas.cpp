@@ -147,7 +147,8 @@ Vec2 PaintAtlas::place(const SurfacePoint& p) const {
   if (own_) {
     const auto uv = [&](int k) {
       const auto* value = surface_.mesh().attributes()->texcoords.at_corner(p.face, k);
-      return Vec2(double((*value)[0]), 1.0 - double((*value)[1]));
+      // Faces that repeat a corner may have none.
+      return value ? Vec2(double((*value)[0]), 1.0 - double((*value)[1])) : Vec2(Vec2::Zero());
     };
     const Vec2 sum = p.bary[0] * uv(0) + p.bary[1] * uv(1) + p.bary[2] * uv(2);
     return size_ * sum - Vec2::Constant(0.5);

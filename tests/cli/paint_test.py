@@ -148,6 +148,32 @@ class Paint(unittest.TestCase):
         self.assertTrue(any(row[3 * x] > 200 and row[3 * x + 1] < 60 for row in rows
                             for x in range(256)))
 
+    def test_faces_without_texels_give_no_colours(self):
+        # Two triangles after faces that repeat a corner, which have no texture coordinates.
+        corners = ("0 0", "1 0", "1 1", "0 1")
+        lines = [f"v {c} 0" for c in corners] + [f"vt {c}" for c in corners]
+        lines += [f"f {k} {k} {k % 4 + 1}" for k in range(1, 5)]
+        lines += ["f 1/1 2/2 3/3", "f 1/1 3/3 4/4"]
+        with open(self.path("repeats.obj"), "w", encoding="utf-8") as file:
+            file.write("\n".join(lines) + "\n")
+        with open(self.curves, encoding="utf-8") as file:
+            curves = json.load(file)
+        curve = curves["curves"][0]
+        curve["points"], curve["pieces"] = curve["points"][:1], []
+        curve["points"][0].update({"face": 4, "bary": [0, 0, 1], "position": [1, 1, 0]})
+        curves["curves"], curves["target"] = [curve], {"name": "repeats", "vertices": 4, "faces": 6}
+        with open(self.path("dab.json"), "w", encoding="utf-8") as file:
+            json.dump(curves, file)
+        for atlas in ("cells", "mesh"):
+            for name in ("repeats.ply", "repeats.glb"):
+                run("paint", self.path("repeats.obj"), self.path("dab.json"), "--atlas", atlas,
+                    "--size", "256", "--radius", "0.3", "--model-units", "--base", "#00ff00",
+                    "--color", "#ff0000", "-o", self.path(name))
+            with open(self.path("repeats.ply"), "rb") as file:
+                data = file.read()
+            self.assertEqual(data.count(bytes((255, 0, 0, 255))), 1)  # the vertex under the brush
+            self.assertEqual(data.count(bytes((0, 255, 0, 255))), 3)
+
     def test_bad_input_is_refused_and_leaves_nothing(self):
         out = self.path("bad.glb")
         for arguments, why in (
