@@ -428,6 +428,12 @@ void StrokePainter::end() {
   state_->layers = nullptr;
 }
 
+void StrokePainter::cancel() {
+  if (!state_->layers) return;
+  state_->layers->cancel_stroke();
+  state_->layers = nullptr;
+}
+
 std::size_t StrokePainter::memory_bytes() const {
   return sizeof(State) + state_->map.memory_bytes();
 }
@@ -453,7 +459,12 @@ void follow_curve(StrokePainter& painter, const ProjectedCurve& curve,
 void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
                  const ProjectedCurve& curve, std::span<const double> pressures) {
   painter.begin(layers, layer, brush);
-  follow_curve(painter, curve, pressures);
+  try {
+    follow_curve(painter, curve, pressures);
+  } catch (...) {
+    painter.cancel();
+    throw;
+  }
   painter.end();
 }
 

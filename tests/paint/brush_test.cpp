@@ -394,6 +394,28 @@ TEST(Brush, AFrameAllocatesNothingOnceItsMemoryIsThere) {
   }
 }
 
+TEST(Brush, AStrokeThatIsCancelledOrRefusedLeavesNothing) {
+  const Surface surface(make_grid(4));
+  const PaintAtlas atlas = PaintAtlas::cells(surface, 256);
+  PaintLayers layers(256, kWhite);
+  StrokePainter painter(atlas);
+  painter.cancel();
+  painter.begin(layers, 0, brush_of(0.1));
+  painter.move_to({0, Vec3::Constant(1.0 / 3.0)});
+  painter.cancel();
+  EXPECT_THROW(painter.move_to({0, Vec3::Constant(1.0 / 3.0)}), Error);
+  ProjectedCurve curve;
+  curve.points.resize(1);
+  curve.points[0].surface = {0, Vec3::Constant(1.0 / 3.0)};
+  const double wrong[1] = {2.0};
+  EXPECT_THROW(paint_curve(painter, layers, 0, brush_of(0.1), curve, wrong), Error);
+  EXPECT_FALSE(layers.has_stroke());
+  EXPECT_FALSE(layers.can_undo());
+  for (const Rgba8& pixel : layers.pixels()) ASSERT_EQ(pixel, (Rgba8{255, 255, 255, 255}));
+  paint_curve(painter, layers, 0, brush_of(0.1), curve);
+  EXPECT_TRUE(layers.can_undo());
+}
+
 TEST(Brush, WhatIsOutOfRangeIsRefused) {
   const Surface surface(make_grid(4));
   const PaintAtlas atlas = PaintAtlas::cells(surface, 256);

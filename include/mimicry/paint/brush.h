@@ -73,6 +73,8 @@ class StrokePainter {
                double pressure = 1.0);
   /// Puts the stroke on its layer.
   void end();
+  /// Forgets it. Both do nothing where no stroke is open.
+  void cancel();
 
   std::size_t memory_bytes() const;
 
@@ -85,7 +87,8 @@ class StrokePainter {
 /// pressures: one for each point, or empty for 1.
 void follow_curve(StrokePainter& painter, const ProjectedCurve& curve,
                   std::span<const double> pressures = {});
-/// A curve as one stroke: `begin`, `follow_curve`, `end`.
+/// A curve as one stroke: `begin`, `follow_curve`, `end`. Throws as they do, and then leaves no
+/// stroke open.
 void paint_curve(StrokePainter& painter, PaintLayers& layers, int layer, const Brush& brush,
                  const ProjectedCurve& curve, std::span<const double> pressures = {});
 
