@@ -259,7 +259,9 @@ void run_paint(const PaintArguments& args, int&) {
                                                 : PaintAtlas::cells(target.surface(), args.size);
   if (atlas.is_coarse())
     complain("texture: " + std::to_string(args.size) + " x " + std::to_string(args.size) +
-             " texels have room for one a face; give --size " + std::to_string(atlas.fine_size()) +
+             " texels have room for one a face; " +
+             (atlas.fine_size() > 0 ? "give --size " + std::to_string(atlas.fine_size())
+                                    : std::string("join faces")) +
              " for more");
   PaintLayers layers(args.size, base, 0);
   if (args.base.empty()) lay_base(atlas, layers);

@@ -37,8 +37,10 @@ PaintAtlas PaintAtlas::cells(const Surface& surface, int size) {
     std::string remedy = "; join faces";
     for (std::size_t s = kLeastTextureSize; s <= kMostTextureSize; s *= 2)
       if (s * s >= at(faces)) {
-        remedy = "; give a size of " + std::to_string(s) + ", or of " +
-                 std::to_string(atlas.fine_size_) + " for more than one texel a face";
+        remedy = "; give a size of " + std::to_string(s);
+        if (atlas.fine_size_ > 0)
+          remedy +=
+              ", or of " + std::to_string(atlas.fine_size_) + " for more than one texel a face";
         break;
       }
     throw Error(ErrorKind::invalid_input, "texture: " + std::to_string(size) + " x " +
