@@ -96,9 +96,11 @@ void require_valid(const Stamp& stamp) {
     refuse_image("stamp: its opacity is out of range; give 0 to 1");
   if (is_outside(stamp.size_jitter, 0.0, 0.9))
     refuse_image("stamp: its size_jitter is out of range; give 0 to 0.9");
-  if (!std::isfinite(stamp.rotation_rad) || !std::isfinite(stamp.rotation_jitter_rad) ||
-      stamp.rotation_jitter_rad < 0.0 || !stamp.up.allFinite())
-    refuse_image("stamp: its rotation, jitter of rotation or up is no number; give radians");
+  if (!std::isfinite(stamp.rotation_rad))
+    refuse_image("stamp: its rotation is not finite; give an angle");
+  if (!std::isfinite(stamp.rotation_jitter_rad) || stamp.rotation_jitter_rad < 0.0)
+    refuse_image("stamp: its rotation_jitter is out of range; give an angle from 0 on");
+  if (!stamp.up.allFinite()) refuse_image("stamp: its up is not finite; give a direction");
 }
 
 void require_valid(const Ribbon& ribbon) {
