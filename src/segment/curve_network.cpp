@@ -90,9 +90,12 @@ void check_connected(const ProjectedCurve& curve, const RefinedCurve& refined, s
     for (std::size_t n = refined.point_nodes[i]; n < refined.point_nodes[i + 1]; ++n)
       if (refined.faces[n] == kNone)
         refuse(number, "piece " + std::to_string(i) +
-                           " is not connected over this mesh; it was drawn on another mesh");
+                           " is not connected over this mesh; it was drawn on another mesh, "
+                           "or in a face without area");
   }
-  refuse(number, "it is not connected over this mesh; it was drawn on another mesh");
+  refuse(number,
+         "it is not connected over this mesh; it was drawn on another mesh, "
+         "or in a face without area");
 }
 
 class Snapper {
@@ -293,14 +296,17 @@ EdgeWay edge_way(const Surface& surface, Index face, const CutPlace& a, const Cu
   return {edge, std::min(from, to), std::max(from, to)};
 }
 
+void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number) {
+  check_curve(surface, curve, number);
+  check_connected(curve, refine(curve, surface), number);
+}
+
 CurveNetwork curve_network(const Surface& surface, std::span<const ProjectedCurve> curves,
                            double snap) {
   CurveNetwork network;
   Snapper snapper(surface, snap);
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    check_curve(surface, curves[c], c);
     const RefinedCurve refined = refine(curves[c], surface);
-    check_connected(curves[c], refined, c);
     std::vector<CutStep>& steps = network.curves.emplace_back();
     for (std::size_t i = 0; i < refined.nodes.size(); ++i)
       steps.push_back({snapper.place(refined.nodes[i].point), refined.faces[i]});

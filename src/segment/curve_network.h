@@ -52,7 +52,10 @@ struct CurveNetwork {
   std::vector<EdgeWay> edge_ways;
 };
 
-/// Throws Error(invalid_input) as `segment` does.
+/// Throws Error(invalid_input) as `segment` does for a curve that cannot be cut.
+void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number);
+
+/// The curves are cuttable. Throws Error(invalid_input) for edges that are not manifold.
 CurveNetwork curve_network(const Surface& surface, std::span<const ProjectedCurve> curves,
                            double snap);
 

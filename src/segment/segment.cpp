@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <mimicry/base/error.h>
 #include <mimicry/segment/segment.h>
 
 #include "geodesic/site.h"
 #include "segment/assemble.h"
+#include "segment/ends.h"
 #include "segment/parts.h"
 
 namespace mimicry {
@@ -18,10 +21,7 @@ void note_curves(Segmentation& cut) {
     const std::string name = "curve " + std::to_string(c);
     const ProjectedCurve& seam = cut.seams[c];
     if (seam.points.empty())
-      cut.notes.push_back(name + " is shorter than the snapping distance and cuts nothing");
-    else if (!seam.closed)
-      cut.notes.push_back(name +
-                          " is open: where no other curve or boundary closes it, it is a slit");
+      cut.notes.push_back(name + ": it is shorter than the snapping distance and cuts nothing");
   }
   if (cut.crossings > 0)
     cut.notes.push_back("curves cross inside faces in " + std::to_string(cut.crossings) +
@@ -56,7 +56,17 @@ Segmentation segment(const Surface& target, std::span<const ProjectedCurve> curv
   if (!(options.snap >= 1e-7 && options.snap <= 0.1))
     throw Error(ErrorKind::invalid_input,
                 "segment: the snapping distance must be from 1e-7 to 0.1 of an edge");
-  Segmentation cut = assemble(target, curve_network(target, curves, options.snap), options);
+  std::vector<ProjectedCurve> ended;
+  std::vector<std::string> notes;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    require_cuttable(target, curves[c], c);
+    EndedCurve end = with_ends(curves[c], target, options.close);
+    if (!end.note.empty()) notes.push_back("curve " + std::to_string(c) + ": " + end.note);
+    ended.push_back(options.method == CutMethod::vertices ? along_vertices(end.curve, target)
+                                                          : std::move(end.curve));
+  }
+  Segmentation cut = assemble(target, curve_network(target, ended, options.snap), options);
+  cut.notes = std::move(notes);
   find_parts(cut);
   note_curves(cut);
   return cut;

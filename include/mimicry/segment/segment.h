@@ -11,7 +11,25 @@
 
 namespace mimicry {
 
+enum class CutMethod {
+  exact,    ///< along the curves: whatever they cross becomes a vertex
+  vertices  ///< along edges of the target: the curves' points are moved to the nearest corners of
+            ///< their faces, which shortest ways over edges join. No vertex is made
+};
+
+/// What is done with the ends of an open curve without gaps and chords.
+enum class CloseCurves {
+  /// Where its first and last 15 % (of its length) cross it is trimmed there; else ends within 25 %
+  /// of each other (on the surface) are joined by the shortest path; else an end within 10 % of a
+  /// boundary is led to it; else it stays a slit.
+  automatic,
+  always,  ///< trimmed, or joined however far the ends are apart
+  never    ///< cut as drawn
+};
+
 struct SegmentOptions {
+  CutMethod method = CutMethod::exact;
+  CloseCurves close = CloseCurves::automatic;
   /// Barycentric coordinates below this are 0: curves that pass so close to a vertex or an edge run
   /// through it, and places of curves so close to each other are one. 1e-7 to 0.1.
   double snap = 1e-4;
@@ -55,14 +73,24 @@ struct Segmentation {
 /// Cuts a surface exactly along curves drawn on it: the arrangement of all of them. Places are
 /// snapped as `options.snap` says, then put on a grid of 2^-30 of the face, on which everything is
 /// decided exactly: no piece of a face has an area of zero or less on it. Equal curves in any order
-/// or direction give the same surface, bit by bit. Closed curves are cut as such, others as slits;
-/// gaps and chords part a curve.
+/// or direction give the same surface, bit by bit. Open curves are closed as `options.close` says;
+/// gaps and chords part a curve. What was done is in the notes.
 /// Throws Error(invalid_input) for a curve without points, of a single point, of another mesh,
 /// with numbers that are not finite, through edges that are not manifold, for options out of range
 /// and for too many crossings. O(#F + n log n), n places and crossings of the curves; within a face
 /// of many pieces up to their square.
 Segmentation segment(const Surface& target, std::span<const ProjectedCurve> curves,
                      const SegmentOptions& options = {});
+
+/// The part to the left or right of the first curve that cuts, at its beginning. Throws
+/// Error(invalid_input) where no curve cuts, or nothing lies on that side. O(faces at a vertex).
+Index left_part(const Segmentation& cut);
+Index right_part(const Segmentation& cut);
+/// The part of the smallest area; of equal ones the first. O(parts).
+Index smallest_part(const Segmentation& cut);
+/// The part that most of a face of the target belongs to. Throws Error(invalid_input) for a face
+/// that there is not, or that is no part of the surface. O(children).
+Index part_of_face(const Segmentation& cut, Index target_face);
 
 /// The same point on the target, and on the cut surface. O(1), and O(children of the face).
 SurfacePoint target_point(const Segmentation& cut, const SurfacePoint& p);
