@@ -42,6 +42,10 @@ class Assembler {
   Segmentation run() {
     place_vertices();
     const std::vector<bool> touched = touched_faces();
+    const auto expected = at(mesh_.face_count()) + 8 * network_.edge_places.size();
+    faces_.reserve(expected);
+    cut_.parents.reserve(expected);
+    cut_.barycentrics.reserve(expected);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       cut_.first_child.push_back(static_cast<Index>(faces_.size()));
       if (repeats_corner(mesh_.face(f))) continue;
@@ -109,7 +113,7 @@ class Assembler {
 
   void add_face(Index parent, const std::array<CutCorner, 3>& corners) {
     faces_.push_back({corners[0].vertex, corners[1].vertex, corners[2].vertex});
-    corners_.push_back(corners);
+    if (mesh_.attributes()) corners_.push_back(corners);
     cut_.parents.push_back(parent);
     cut_.barycentrics.push_back({corners[0].bary, corners[1].bary, corners[2].bary});
   }
@@ -284,9 +288,9 @@ class Assembler {
   const SegmentOptions& options_;
   std::vector<Vec3> positions_;
   std::vector<Face> faces_;
-  std::vector<std::array<CutCorner, 3>> corners_;
-  std::vector<std::vector<Index>> chains_;  // of face ways, in vertices
-  std::vector<Pair> seams_;                 // edges of the cut mesh, lower vertex first
+  std::vector<std::array<CutCorner, 3>> corners_;  // where there are attributes
+  std::vector<std::vector<Index>> chains_;         // of face ways, in vertices
+  std::vector<Pair> seams_;                        // edges of the cut mesh, lower vertex first
   Segmentation cut_;
 };
 

@@ -41,7 +41,8 @@ void check_crossing(const Surface& surface, const Crossing& c, std::size_t curve
     refuse_edge(surface, c.half_edge, curve, where);
 }
 
-void check_curve(const Surface& surface, const ProjectedCurve& curve, std::size_t number) {
+void check_curve(const Surface& surface, const ProjectedCurve& curve, std::size_t number,
+                 double far) {
   const TriangleMesh& mesh = surface.mesh();
   if (curve.points.empty()) refuse(number, "it has no points; draw it, or leave it out");
   if (curve.points.size() == 1)
@@ -49,7 +50,6 @@ void check_curve(const Surface& surface, const ProjectedCurve& curve, std::size_
   if (curve.pieces.size() + 1 != curve.points.size())
     refuse(number, std::to_string(curve.pieces.size()) + " pieces for " +
                        std::to_string(curve.points.size()) + " points; write the curve anew");
-  const double far = 1e-3 * diagonal(mesh);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const CurvePoint& p = curve.points[i];
     const std::string what = "curve " + std::to_string(number) + ": point " + std::to_string(i);
@@ -296,8 +296,9 @@ EdgeWay edge_way(const Surface& surface, Index face, const CutPlace& a, const Cu
   return {edge, std::min(from, to), std::max(from, to)};
 }
 
-void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number) {
-  check_curve(surface, curve, number);
+void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number,
+                      double mesh_diagonal) {
+  check_curve(surface, curve, number, 1e-3 * mesh_diagonal);
   check_connected(curve, refine(curve, surface), number);
 }
 

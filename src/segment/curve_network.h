@@ -53,7 +53,8 @@ struct CurveNetwork {
 };
 
 /// Throws Error(invalid_input) as `segment` does for a curve that cannot be cut.
-void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number);
+void require_cuttable(const Surface& surface, const ProjectedCurve& curve, std::size_t number,
+                      double mesh_diagonal);
 
 /// The curves are cuttable. Throws Error(invalid_input) for edges that are not manifold.
 CurveNetwork curve_network(const Surface& surface, std::span<const ProjectedCurve> curves,

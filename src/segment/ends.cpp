@@ -173,14 +173,17 @@ EndedCurve with_ends(const ProjectedCurve& curve, const Surface& surface, CloseC
     return {trimmed(refined, *found, surface),
             "closed where its ends cross, " + length_text(cut_off, whole) + " trimmed off"};
   }
-  ProjectedCurve joined = curve;
-  const Closing closing = mimicry::close(joined, surface);
-  const double gap = closing.closed && joined.points.size() > curve.points.size()
-                         ? joined.pieces.back().length
-                         : 0.0;
-  if (closing.closed && (close == CloseCurves::always || gap <= kJoinShare * whole))
-    return {joined, gap > 0.0 ? "closed by a geodesic of " + length_text(gap, whole)
-                              : "closed where its ends meet"};
+  // No way on the surface is shorter than the straight one: far ends need no search.
+  const double apart = (curve.points.front().position - curve.points.back().position).norm();
+  if (close == CloseCurves::always || apart <= kJoinShare * whole) {
+    ProjectedCurve joined = curve;
+    const Closing closing = mimicry::close(joined, surface);
+    const bool has_gap = joined.points.size() > curve.points.size();
+    const double gap = has_gap ? joined.pieces.back().length : 0.0;
+    if (closing.closed && (close == CloseCurves::always || gap <= kJoinShare * whole))
+      return {joined, gap > 0.0 ? "closed by a geodesic of " + length_text(gap, whole)
+                                : "closed where its ends meet"};
+  }
   if (close == CloseCurves::always)
     return {curve, "stays open: the surface does not join its ends"};
   ProjectedCurve led = curve;

@@ -56,10 +56,11 @@ Segmentation segment(const Surface& target, std::span<const ProjectedCurve> curv
   if (!(options.snap >= 1e-7 && options.snap <= 0.1))
     throw Error(ErrorKind::invalid_input,
                 "segment: the snapping distance must be from 1e-7 to 0.1 of an edge");
+  const double size = diagonal(target.mesh());
   std::vector<ProjectedCurve> ended;
   std::vector<std::string> notes;
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    require_cuttable(target, curves[c], c);
+    require_cuttable(target, curves[c], c, size);
     EndedCurve end = with_ends(curves[c], target, options.close);
     if (!end.note.empty()) notes.push_back("curve " + std::to_string(c) + ": " + end.note);
     ended.push_back(options.method == CutMethod::vertices ? along_vertices(end.curve, target)
