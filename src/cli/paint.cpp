@@ -240,6 +240,8 @@ void check_outputs(const PaintArguments& args) {
   if (args.out.empty() && args.png.empty())
     throw CLI::ValidationError("--out", "nothing is to be written; give --out or --png");
   if (args.out.empty()) return;
+  if (to_path(args.png).lexically_normal() == to_path(args.out).lexically_normal())
+    throw CLI::ValidationError("--png", "names the file of --out; give another");
   const MeshFormat format = mesh_format_of(args.out);
   if (format != MeshFormat::glb && format != MeshFormat::obj && format != MeshFormat::ply)
     throw CLI::ValidationError("--out",

@@ -196,6 +196,7 @@ class Paint(unittest.TestCase):
         done = run("paint", self.mesh, self.path("moved.json"), "-o", out, expect=3)
         self.assertIn("curve 0: point 3 lies elsewhere", done.stderr)
         self.paint("-o", self.path("bad.stl"), expect=2)
+        self.paint("-o", out, "--png", out, expect=2)
         self.paint(expect=2)
         self.assertFalse(any(name.startswith("bad") for name in os.listdir(self.folder.name)))
 

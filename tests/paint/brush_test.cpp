@@ -394,6 +394,51 @@ TEST(Brush, AFrameAllocatesNothingOnceItsMemoryIsThere) {
   }
 }
 
+TEST(Brush, TheEraserTakesItsDabAway) {
+  const Surface surface(make_grid(4));
+  const PaintAtlas atlas = PaintAtlas::cells(surface, 256);
+  PaintLayers layers(256, kWhite);
+  StrokePainter painter(atlas);
+  Brush brush = brush_of(0.3);
+  brush.hardness = 1.0;
+  const auto painted = [&] {
+    std::size_t count = 0;
+    for (const Rgba8& pixel : layers.pixels()) count += pixel[0] < 255;
+    return count;
+  };
+  for (const bool erase : {false, true}) {
+    brush.erase = erase;
+    if (erase) brush.radius = 0.4;
+    painter.begin(layers, 0, brush);
+    painter.move_to(at_place(surface, 0.1, 0.2));
+    painter.end();
+    if (erase)
+      EXPECT_EQ(painted(), 0u);
+    else
+      EXPECT_GT(painted(), 500u);
+  }
+}
+
+TEST(Brush, PressureTakesFlowAway) {
+  const Surface surface(make_grid(4));
+  const PaintAtlas atlas = PaintAtlas::cells(surface, 256);
+  PaintLayers layers(256, kWhite);
+  StrokePainter painter(atlas);
+  Brush brush = brush_of(0.3);
+  brush.flow = 0.8;
+  brush.pressure_flow = 0.5;
+  brush.blend = BrushBlend::max;
+  const SurfacePoint point = at_place(surface, 0.1, 0.2);
+  const Vec2 texel = atlas.place(point);
+  for (const double pressure : {0.0, 0.5, 1.0}) {
+    painter.begin(layers, 0, brush);
+    painter.move_to(point, pressure);
+    EXPECT_NEAR(double(layers.coverage(int(std::lround(texel.x())), int(std::lround(texel.y())))),
+                0.4 + 0.4 * pressure, 1e-6);
+    painter.cancel();
+  }
+}
+
 TEST(Brush, AStrokeThatIsCancelledOrRefusedLeavesNothing) {
   const Surface surface(make_grid(4));
   const PaintAtlas atlas = PaintAtlas::cells(surface, 256);
