@@ -101,7 +101,22 @@ class Assembler {
       if (edges_.has_twin(p.where)) touched[at(HalfEdges::face(edges_.twin(p.where)))] = true;
     }
     for (const CutPlace& p : network_.face_places) touched[at(p.where)] = true;
+    for (Index f = 0; f < mesh_.face_count(); ++f)
+      if (touched[at(f)]) refuse_twin(f);
     return touched;
+  }
+
+  // Edges are known by their ends: in two faces with the same corners those of a cut could not be
+  // told apart.
+  void refuse_twin(Index f) const {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      const Index twin = edges_.twin(h), next = edges_.twin(HalfEdges::next(h));
+      if (twin < 0 || next < 0 || HalfEdges::face(twin) != HalfEdges::face(next)) continue;
+      throw Error(ErrorKind::invalid_input,
+                  "curves: they pass through faces " + std::to_string(f) + " and " +
+                      std::to_string(HalfEdges::face(twin)) +
+                      ", which have the same three corners; take one of them out of the mesh");
+    }
   }
 
   void keep_face(Index f) {

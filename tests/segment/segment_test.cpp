@@ -391,6 +391,11 @@ TEST(Segment, RefusesCurvesThatCannotBeCut) {
   options.snap = 0.5;
   EXPECT_THROW(segment(sphere.surface, std::vector{good}, options), Error);
 
+  const Drawn pillow{TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}})};
+  EXPECT_THAT(refusal(pillow.surface, pillow.curve(std::vector<SurfacePoint>{
+                                          {0, Vec3(0.2, 0.2, 0.6)}, {0, Vec3(0.5, 0.3, 0.2)}})),
+              testing::HasSubstr("faces 0 and 1"));
+
   const Drawn fins{TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
                                 {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})};
   ProjectedCurve through =

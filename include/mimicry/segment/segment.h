@@ -76,7 +76,8 @@ struct Segmentation {
 /// or direction give the same surface, bit by bit. Open curves are closed as `options.close` says;
 /// gaps and chords part a curve. What was done is in the notes.
 /// Throws Error(invalid_input) for a curve without points, of a single point, of another mesh,
-/// with numbers that are not finite, through edges that are not manifold, for options out of range
+/// with numbers that are not finite, through edges that are not manifold or faces
+/// that share all corners, for options out of range
 /// and for too many crossings. O(#F + n log n), n places and crossings of the curves; within a face
 /// of many pieces up to their square.
 Segmentation segment(const Surface& target, std::span<const ProjectedCurve> curves,
