@@ -99,7 +99,8 @@ std::optional<SurfacePoint> boundary_near(const Surface& surface, const Vec3& x,
   std::optional<SurfacePoint> best;
   for (Index h = 0; h < edges.count(); ++h) {
     if (edges.twin(h) != kNone || repeats_corner(mesh.face(HalfEdges::face(h)))) continue;
-    const Vec3 a = mesh.position(edges.tail(h)), along = mesh.position(edges.head(h)) - a;
+    const Vec3& a = mesh.position(edges.tail(h));
+    const Vec3 along = mesh.position(edges.head(h)) - a;
     const double size = along.squaredNorm();
     const double t = size > 0.0 ? std::clamp((x - a).dot(along) / size, 0.0, 1.0) : 0.0;
     const double distance = (a + t * along - x).norm();
