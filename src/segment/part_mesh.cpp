@@ -88,7 +88,7 @@ TriangleMesh part_mesh(const Segmentation& cut, Index label, bool cut_open) {
 
 double signed_volume(const TriangleMesh& mesh) {
   if (mesh.face_count() == 0) return 0.0;
-  const Vec3 origin = mesh.corner(0, 0);  // near it: far from the world's nothing would be left
+  const Vec3& origin = mesh.corner(0, 0);  // near it: far from the world's nothing would be left
   double six = 0.0;
   for (Index f = 0; f < mesh.face_count(); ++f)
     six += (mesh.corner(f, 0) - origin)
