@@ -81,7 +81,9 @@ class Assembler {
     const auto range = std::equal_range(
         network_.edge_places.begin(), network_.edge_places.end(), CutPlace{Kind::edge, edge, {}},
         [](const CutPlace& a, const CutPlace& b) { return a.where < b.where; });
-    return {range.first, range.second};
+    return std::span(network_.edge_places)
+        .subspan(static_cast<std::size_t>(range.first - network_.edge_places.begin()),
+                 static_cast<std::size_t>(range.second - range.first));
   }
 
   void place_vertices() {
