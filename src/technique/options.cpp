@@ -163,9 +163,12 @@ void require_sound_row(const TechniqueInfo& technique, const OptionInfo& option)
                                               "of its member");
   if (option.kind == OptionKind::choice && option.choices.empty())
     throw Error(ErrorKind::invalid_input, label + " is a choice without names of its values");
-  for (const std::string& choice : option.choices)
-    if (std::count(option.choices.begin(), option.choices.end(), choice) > 1)
-      throw Error(ErrorKind::invalid_input, label + " has two choices '" + choice + "'");
+  const auto twice = std::find_if(
+      option.choices.begin(), option.choices.end(), [&option](const std::string& choice) {
+        return std::count(option.choices.begin(), option.choices.end(), choice) > 1;
+      });
+  if (twice != option.choices.end())
+    throw Error(ErrorKind::invalid_input, label + " has two choices '" + *twice + "'");
   if (std::isnan(option.lowest) || std::isnan(option.highest) || option.lowest > option.highest)
     throw Error(ErrorKind::invalid_input, label + ": its lowest value is above its highest");
 }
