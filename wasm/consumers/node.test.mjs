@@ -68,6 +68,9 @@ await tell(new Mimicry({ wasm: new WebAssembly.Module(Uint8Array.of(0, 97, 115, 
 await tell(bake({ positions: [0, 0], faces: [] }));
 await tell(bake(mesh, { worker: new Worker('process.exit(3)', { eval: true }) }));
 await tell(bake(mesh, { worker: new Worker('throw new Error("broken")', { eval: true }) }));
+const slow = () => new Promise((served) => setTimeout(() => served(readFileSync(dist + 'bake.wasm')), 2000)); // the worker ends before
+await tell(bake(mesh, { wasm: slow(), worker: new Worker('process.exit(3)', { eval: true }) }));
+await tell(bake(mesh, { wasm: slow(), worker: new Worker('throw new Error("broken")', { eval: true }) }));
 await tell(bake(mesh, { signal: AbortSignal.abort() }));
 const stop = new AbortController();
 await tell(bake(mesh, { signal: stop.signal, onProgress: () => stop.abort() }));
@@ -84,6 +87,8 @@ console.log(JSON.stringify(said));
     /io http:\/\/127\.0\.0\.1:9\/core\.wasm cannot be loaded/,
     /is no build of mimicry/,
     /invalid_input the positions .*3 numbers each, not 2 of them/,
+    /failed the bake's worker failed \(it ended with code 3\)/,
+    /failed the bake's worker failed \(broken\)/,
     /failed the bake's worker failed \(it ended with code 3\)/,
     /failed the bake's worker failed \(broken\)/,
     /cancelled/,

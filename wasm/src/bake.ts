@@ -1,5 +1,5 @@
 import { bakeWasm } from './bake_files.js';
-import { kBakeFile, runBake, type BakeSettings } from './bake_run.js';
+import { kBakeFile, runBake, type BakeOrder, type BakeSettings } from './bake_run.js';
 import { MimicryError } from './error.js';
 import { compiled } from './load.js';
 import { meshInput, type MeshInput } from './mesh.js';
@@ -32,18 +32,22 @@ export async function bakeHere(mesh: MeshInput, options: BakeOptions = {}): Prom
 
 /** Bakes in a worker of its own, in pages, workers and Node. The mesh's arrays are copied. The content of a `.mimicry` file. */
 export async function bake(mesh: MeshInput, options: BakeJobOptions = {}): Promise<Bytes> {
-  const { signal, worker: given } = options;
+  const { signal, worker: given, onProgress } = options;
   if (given) requireWorker(given);
   const cancelled = () => new MimicryError('cancelled', 'the bake was cancelled');
   let abort = () => {};
   const aborted = new Promise<never>((_, reject) => { abort = () => reject(cancelled()); });
   let worker = given;
+  let done = worker && follow(worker, onProgress);
   try {
     if (signal?.aborted) throw cancelled();
     signal?.addEventListener('abort', abort);
     const code = await Promise.race([compiled(options.wasm ?? bakeWasm(), kBakeFile), aborted]);
     worker ??= await startWorker();
-    return await Promise.race([follow(worker, { code, mesh: meshInput(mesh), settings: settingsOf(options) }, options.onProgress), aborted]);
+    done ??= follow(worker, onProgress);
+    const order: BakeOrder = { code, mesh: meshInput(mesh), settings: settingsOf(options) };
+    worker.postMessage(order);
+    return await Promise.race([done, aborted]);
   } finally {
     worker?.terminate();
     signal?.removeEventListener('abort', abort);

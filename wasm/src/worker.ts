@@ -1,5 +1,5 @@
 import { workerScript } from './bake_files.js';
-import type { BakeNews, BakeOrder } from './bake_run.js';
+import type { BakeNews } from './bake_run.js';
 import { messageOf, MimicryError } from './error.js';
 import { builtin, isNode } from './node.js';
 import type { Bytes, WorkerLike } from './types.js';
@@ -42,9 +42,12 @@ export function requireWorker(worker: WorkerLike): void {
     throw new MimicryError('invalid_input', 'option worker: give a Worker that runs mimicry/bake_worker');
 }
 
-/** Gives a worker its order, and hears of it until it is done. */
-export function follow(worker: WorkerLike, order: BakeOrder, onProgress?: (stage: string, fraction: number) => void): Promise<Bytes> {
-  return new Promise((resolve, reject) => {
+/**
+ * Hears of a worker until its bake is done. It is called as soon as there is a worker: one of Node's that fails
+ * while nobody listens ends the program.
+ */
+export function follow(worker: WorkerLike, onProgress?: (stage: string, fraction: number) => void): Promise<Bytes> {
+  const done = new Promise<Bytes>((resolve, reject) => {
     const hear = (news: BakeNews) => {
       if ('stage' in news) onProgress?.(news.stage, news.fraction);
       else if ('bytes' in news) resolve(news.bytes);
@@ -61,6 +64,7 @@ export function follow(worker: WorkerLike, order: BakeOrder, onProgress?: (stage
       // Scripts that cannot be loaded have no message.
       worker.addEventListener('error', (event: { message?: string }) => event.message ? fail(event.message) : reject(notStarted('')));
     }
-    worker.postMessage(order);
   });
+  done.catch(() => {}); // a failure before the order is told by who waits for it
+  return done;
 }
